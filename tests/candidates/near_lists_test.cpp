@@ -69,11 +69,13 @@ TEST(NearLists, ListRatesThatNoContactIsEarlierThan) {
       const Vec3 d = scenes::random_vector(listed.random, i % 2 == 0 ? 0.05 : 5);
       const StraightMotion motion(d);
       const StraightPiece piece(scene, d);
-      for (const NearLeaves& near : lists.near) {
+      const NearLists view{lists.near, lists.normals, lists.levels, lists.far};
+      for (std::size_t k = 0; k < lists.near.size(); ++k) {
+        const NearLeaves& near = lists.near[k];
         const PairRule rule = scene.rule_of(near.leaves);
         const CcdResult ccd =
             ccd_with_ghosts(scene.moving_leaf(near.leaves, rule, piece), scene.fixed_leaf(near.leaves, rule));
-        const double rate = near.closing_rate(motion);
+        const double rate = view.closing_rate(k, motion, i % 3 == 0 ? 1 : 0);
         if (ccd.status != CcdStatus::Contact) {
           apart += rate < 1 ? 1 : 0;
           continue;
@@ -96,7 +98,7 @@ std::vector<CandidateContact> swept(const CandidateScene& scene, const FoundNear
   HostQueue queue{Executor()};
   std::vector<CandidateContact> found(displacements.size());
   StraightSweep<HostQueue>(queue, most_pairs)
-      .run(queue, scene, {lists.near, lists.levels, lists.far}, displacements, found);
+      .run(queue, scene, {lists.near, lists.normals, lists.levels, lists.far}, displacements, found);
   return found;
 }
 

@@ -192,11 +192,12 @@ class TurningPiece {
  private:
   /// The time until which one of two axes certainly separates. Between its values at both ends, a gap is never smaller
   /// than by linear interpolation.
-  DISMANTLE_HOST_DEVICE static double apart_until(const TriangleMotion& motion, const SeparatingAxis (&axes)[2],
+  DISMANTLE_HOST_DEVICE static double apart_until(const TriangleMotion& motion, const AxisPair& pair,
                                                   const double (&levels)[2]) {
     double until = 0;
-    for (int k = 0; k < 2 && axes[k].separates(); ++k) {
-      const double at_start = axes[k].gap_left(motion.t0, levels[k]), at_end = axes[k].gap_left(motion.t1, levels[k]);
+    for (int k = 0; k < 2 && pair.axes[k].separates(); ++k) {
+      const double at_start = pair.axes[k].gap_left(motion.t0, levels[k]),
+                   at_end = pair.axes[k].gap_left(motion.t1, levels[k]);
       if (!(at_start > 0)) continue;
       if (at_end > 0) return OverlapTimes::kNever;
       const double closed = (1 - kClosingRounding) * at_start / (at_start - at_end);

@@ -68,6 +68,7 @@ class DeviceBatch final : public MotionBatch {
   DeviceArray<NodeIndex> moving_roots_;
   DeviceArray<std::uint32_t> motion_class_;
   DeviceArray<NearLeaves> near_;  // of the state, once candidates wanted them
+  DeviceArray<NearNormals> normals_;
   DeviceArray<NearLevels> levels_;
   DeviceArray<FarNodes> far_;
   std::size_t near_count_ = 0, far_count_ = 0;
@@ -136,14 +137,15 @@ NearLists DeviceBatch<Queue>::near_lists() {
                                                   transform_from_pose(start_)},
                                                  executor_);
     upload(queue_, near_, Span<const NearLeaves>(found.near));
+    upload(queue_, normals_, Span<const NearNormals>(found.normals));
     upload(queue_, levels_, Span<const NearLevels>(found.levels));
     upload(queue_, far_, Span<const FarNodes>(found.far));
     near_count_ = found.near.size();
     far_count_ = found.far.size();
     has_lists_ = true;
   }
-  return {near_.view().subspan(0, near_count_), levels_.view().subspan(0, near_count_),
-          far_.view().subspan(0, far_count_)};
+  return {near_.view().subspan(0, near_count_), normals_.view().subspan(0, near_count_),
+          levels_.view().subspan(0, near_count_), far_.view().subspan(0, far_count_)};
 }
 
 template <class Queue>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -59,48 +60,56 @@ SeparatingAxis separating(const Gap& gap) {
   return {(1 / gap.gap) * gap.axis, kSlack / gap.gap};
 }
 
-/// The widest gaps between two triangles along two different axes; infinite rates where they are not apart.
-/// @return the widest gap [mm]
-double find_axes(const Triangle& moving, const Triangle& fixed, SeparatingAxis (&axes)[2]) {
+/// Finds the axes between two triangles: those of the widest gaps along two different directions, and the normals.
+/// @return the widest gap [mm]; 0, and infinite rates, where they are not apart
+double find_axes(const Triangle& moving, const Triangle& fixed, AxisPair& widest, AxisPair& normals) {
   double size = 0;
   for (const Triangle* triangle : {&moving, &fixed})
     for (const Vec3& p : triangle->corner) size = std::max(size, length(p));
+  const Vec3 of_moving[3] = {moving[1] - moving[0], moving[2] - moving[1], moving[0] - moving[2]};
+  const Vec3 of_fixed[3] = {fixed[1] - fixed[0], fixed[2] - fixed[1], fixed[0] - fixed[2]};
   std::array<Gap, 17> gaps;
   std::size_t count = 0;
   const auto add = [&](Vec3 direction) {
     if (const std::optional<Gap> gap = gap_along(direction, moving, fixed, kSlack * size)) gaps[count++] = *gap;
   };
-  const Vec3 of_moving[3] = {moving[1] - moving[0], moving[2] - moving[1], moving[0] - moving[2]};
-  const Vec3 of_fixed[3] = {fixed[1] - fixed[0], fixed[2] - fixed[1], fixed[0] - fixed[2]};
   const Vec3 normal_of_moving = cross(of_moving[0], of_moving[1]), normal_of_fixed = cross(of_fixed[0], of_fixed[1]);
   add(normal_of_moving);
   add(normal_of_fixed);
+  const std::size_t normal_count = count;
   for (const Vec3& edge : of_moving)
     for (const Vec3& other : of_fixed) add(cross(edge, other));
   // Triangles of one plane are separated within it.
   for (const Vec3& edge : of_moving) add(cross(edge, normal_of_moving));
   for (const Vec3& other : of_fixed) add(cross(other, normal_of_fixed));
   if (count == 0) return 0;
-  const Gap* widest = &gaps[0];
+  const Gap* most = &gaps[0];
   for (std::size_t i = 1; i < count; ++i)
-    if (gaps[i].gap > widest->gap) widest = &gaps[i];
-  const Gap* other = nullptr;
+    if (gaps[i].gap > most->gap) most = &gaps[i];
+  const Gap* other = most;
   for (std::size_t i = 0; i < count; ++i)
-    if (dot(gaps[i].axis, widest->axis) <= kSameAxis && (other == nullptr || gaps[i].gap > other->gap))
-      other = &gaps[i];
-  axes[0] = separating(*widest);
-  axes[1] = other != nullptr ? separating(*other) : axes[0];
-  return (1 - 1e-9) * widest->gap;
+    if (dot(gaps[i].axis, most->axis) <= kSameAxis && (other == most || gaps[i].gap > other->gap)) other = &gaps[i];
+  widest = {{separating(*most), separating(*other)}};
+  for (std::size_t i = 0; i < 2; ++i) normals.axes[i] = i < normal_count ? separating(gaps[i]) : widest.axes[i];
+  return (1 - 1e-9) * most->gap;
 }
 
-NearLeaves near_leaves(const CandidateScene& scene, NodePair leaves) {
+/// Leaves as the lists have them.
+struct Listed {
+  NearLeaves near;
+  NearNormals normals;
+};
+
+Listed listed_leaves(const CandidateScene& scene, NodePair leaves) {
   const PairRule rule = scene.rule_of(leaves);
   const GhostMotion moving = scene.moving_leaf(leaves, rule, StraightPiece(scene, {}));
   const GhostMotion fixed = scene.fixed_leaf(leaves, rule);
-  NearLeaves near{leaves, 0, {}, {}};
-  near.gap = std::min(find_axes(moving.ghost.t0, fixed.triangle.t0, near.of_moving_ghost),
-                      find_axes(moving.triangle.t0, fixed.ghost.t0, near.of_fixed_ghost));
-  return near;
+  Listed listed{{leaves, 0, {}, {}}, {}};
+  NearLeaves& near = listed.near;
+  near.gap =
+      std::min(find_axes(moving.ghost.t0, fixed.triangle.t0, near.of_moving_ghost, listed.normals.of_moving_ghost),
+               find_axes(moving.triangle.t0, fixed.ghost.t0, near.of_fixed_ghost, listed.normals.of_fixed_ghost));
+  return listed;
 }
 
 double level_of(const Triangle& fixed, const SeparatingAxis& axis) {
@@ -117,8 +126,8 @@ NearLevels near_levels(const CandidateScene& scene, const NearLeaves& near) {
   const GhostMotion fixed = scene.fixed_leaf(near.leaves, scene.rule_of(near.leaves));
   NearLevels levels;
   for (int k = 0; k < 2; ++k) {
-    levels.of_moving_ghost[k] = level_of(fixed.triangle.t0, near.of_moving_ghost[k]);
-    levels.of_fixed_ghost[k] = level_of(fixed.ghost.t0, near.of_fixed_ghost[k]);
+    levels.of_moving_ghost[k] = level_of(fixed.triangle.t0, near.of_moving_ghost.axes[k]);
+    levels.of_fixed_ghost[k] = level_of(fixed.ghost.t0, near.of_fixed_ghost.axes[k]);
   }
   return levels;
 }
@@ -182,12 +191,21 @@ FoundNearLists find_near_lists(const CandidateScene& scene, const Executor& exec
       for (int k = 0; k < next.count; ++k) opened.add(next.pair[k]);
     }
   }
-  FoundNearLists found{std::vector<NearLeaves>(near.size()), std::vector<NearLevels>(near.size()), opened.taken_all()};
-  executor.for_each(near.size(), [&](std::size_t i) { found.near[i] = near_leaves(scene, near[i]); });
-  std::sort(found.near.begin(), found.near.end(), [](const NearLeaves& x, const NearLeaves& y) {
+  std::vector<Listed> listed(near.size());
+  executor.for_each(near.size(), [&](std::size_t i) { listed[i] = listed_leaves(scene, near[i]); });
+  std::vector<std::size_t> order(near.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    const NearLeaves &x = listed[i].near, &y = listed[j].near;
     return std::tuple(x.gap, x.leaves.a, x.leaves.b) < std::tuple(y.gap, y.leaves.a, y.leaves.b);
   });
-  executor.for_each(near.size(), [&](std::size_t i) { found.levels[i] = near_levels(scene, found.near[i]); });
+  FoundNearLists found{std::vector<NearLeaves>(near.size()), std::vector<NearNormals>(near.size()),
+                       std::vector<NearLevels>(near.size()), opened.taken_all()};
+  executor.for_each(near.size(), [&](std::size_t i) {
+    found.near[i] = listed[order[i]].near;
+    found.normals[i] = listed[order[i]].normals;
+    found.levels[i] = near_levels(scene, found.near[i]);
+  });
   return found;
 }
 

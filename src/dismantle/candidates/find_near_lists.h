@@ -12,6 +12,7 @@ namespace dismantle {
 struct FoundNearLists {
   ///@{ As NearLists has them.
   std::vector<NearLeaves> near;
+  std::vector<NearNormals> normals;
   std::vector<NearLevels> levels;
   std::vector<FarNodes> far;
   ///@}

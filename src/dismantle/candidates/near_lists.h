@@ -47,22 +47,32 @@ struct SeparatingAxis {
   }
 };
 
+/// Two axes of a triangle and a ghost.
+struct AxisPair {
+  SeparatingAxis axes[2];  ///< The same twice where there is one.
+
+  /// The lower of the two rates.
+  DISMANTLE_HOST_DEVICE double closing_rate(const StraightMotion& motion) const {
+    const double first = axes[0].closing_rate(motion), second = axes[1].closing_rate(motion);
+    return first < second ? first : second;
+  }
+};
+
 /// Two leaves that are near each other at the start: the first moves. They meet where the ghost of one meets the other.
 struct NearLeaves {
-  NodePair leaves;                    ///< Of the moving set and of a stationary component.
-  double gap = 0;                     ///< Lower bound of both distances [mm].
-  SeparatingAxis of_moving_ghost[2];  ///< Of the ghost of the moving triangle and the stationary triangle.
-  SeparatingAxis of_fixed_ghost[2];   ///< Of the moving triangle and the ghost of the stationary one.
+  NodePair leaves;  ///< Of the moving set and of a stationary component.
+  double gap = 0;   ///< Lower bound of both distances [mm].
+  AxisPair
+      of_moving_ghost;  ///< Of the widest gaps between the ghost of the moving triangle and the stationary triangle.
+  AxisPair of_fixed_ghost;  ///< Of those between the moving triangle and the ghost of the stationary one.
+};
 
-  /// The larger rate of the two, each by the better of its axes.
-  DISMANTLE_HOST_DEVICE double closing_rate(const StraightMotion& motion) const {
-    const double first = lesser(of_moving_ghost[0].closing_rate(motion), of_moving_ghost[1].closing_rate(motion));
-    const double second = lesser(of_fixed_ghost[0].closing_rate(motion), of_fixed_ghost[1].closing_rate(motion));
-    return first > second ? first : second;
-  }
-
- private:
-  DISMANTLE_HOST_DEVICE static double lesser(double x, double y) { return x < y ? x : y; }
+/// More axes of NearLeaves, for those that the others do not decide: the normals of the triangles and the ghosts decide
+/// most that slide along each other. Of the other axes again where a normal does not separate.
+struct NearNormals {
+  ///@{ As the axes of these names.
+  AxisPair of_moving_ghost, of_fixed_ghost;
+  ///@}
 };
 
 /// The levels of the stationary objects along the axes of NearLeaves: upper bounds of their positions along the
@@ -82,12 +92,27 @@ struct FarNodes {
 /// All that the moving set may meet on a motion from one state, found once for all motions from it. Every pair of
 /// leaves that is tested is in `near` or below one of `far`.
 struct NearLists {
-  Span<const NearLeaves> near;    ///< By ascending gap.
-  Span<const NearLevels> levels;  ///< Of the same leaves.
-  Span<const FarNodes> far;       ///< By ascending gap.
+  Span<const NearLeaves> near;      ///< By ascending gap.
+  Span<const NearNormals> normals;  ///< Of the same leaves.
+  Span<const NearLevels> levels;    ///< Of the same leaves.
+  Span<const FarNodes> far;         ///< By ascending gap.
+
+  /// The closing rate of near pair k: the larger one of the two with a ghost, each by its best axis.
+  /// @param enough where the rate is no higher than this, no more axes are tried
+  DISMANTLE_HOST_DEVICE double closing_rate(std::size_t k, const StraightMotion& motion, double enough) const {
+    const double first = near[k].of_moving_ghost.closing_rate(motion);
+    const double second = near[k].of_fixed_ghost.closing_rate(motion);
+    if (first <= enough && second <= enough) return larger(first, second);
+    return larger(lesser(first, normals[k].of_moving_ghost.closing_rate(motion)),
+                  lesser(second, normals[k].of_fixed_ghost.closing_rate(motion)));
+  }
 
   /// True if nothing that is far is met before a point of the moving set has moved so far [mm].
   DISMANTLE_HOST_DEVICE bool hold_within(double distance) const { return far.empty() || far[0].gap > distance; }
+
+ private:
+  DISMANTLE_HOST_DEVICE static double lesser(double x, double y) { return x < y ? x : y; }
+  DISMANTLE_HOST_DEVICE static double larger(double x, double y) { return x > y ? x : y; }
 };
 
 }  // namespace dismantle

@@ -107,7 +107,7 @@ struct FindSoonest {
       rates[i] = least_rate(1);
     }
     for (std::uint32_t k = 0; k < near.size() && near[k].gap * first.rate <= motion.distance; ++k) {
-      const double rate = near[k].closing_rate(motion);
+      const double rate = batch.lists.closing_rate(k, motion, rates[SoonestPairs::kCount - 1]);
       if (!(rate > rates[SoonestPairs::kCount - 1])) continue;
       int at = SoonestPairs::kCount - 1;
       for (; at > 0 && rate > rates[at - 1]; --at) {
@@ -137,7 +137,8 @@ struct TestSoonest {
     const StraightMotion motion(batch.displacements[candidate]);
     CandidateContact contact;
     for (const std::uint32_t k : pairs.near)
-      if (k != SoonestPairs::kNone && batch.lists.near[k].closing_rate(motion) > least_rate(contact.toi))
+      if (k != SoonestPairs::kNone &&
+          batch.lists.closing_rate(k, motion, least_rate(contact.toi)) > least_rate(contact.toi))
         contact = batch.contact(candidate, batch.lists.near[k].leaves, contact);
     found[candidate] = contact;
     next[candidate] = 0;
@@ -152,65 +153,46 @@ struct EarlierPair {
   CandidateContact contact;  ///< Its contact, or the first so far.
 };
 
-/// The pairs listed for a candidate: EarlierPairs.
-struct EarlierRange {
-  std::uint64_t begin = 0, end = 0;  ///< Their numbers.
-};
-
-/// Begins a list. One item.
-struct ForgetListed {
-  std::uint64_t* listed;  ///< Output: 0.
-
-  /// The item.
-  DISMANTLE_HOST_DEVICE void operator()(std::size_t) const { *listed = 0; }
-};
-
 /// Lists pairs in the order of the near list. Item: an undecided candidate.
 struct ListEarlier {
   StraightBatch batch;                   ///< The translations.
   Span<const std::uint32_t> undecided;   ///< Candidates.
   Span<const SoonestPairs> soonest;      ///< Of each candidate.
   Span<const CandidateContact> found;    ///< Of each candidate: the first contact so far.
-  std::uint32_t most;                    ///< Pairs that are listed for a candidate at most.
+  std::uint32_t each;                    ///< Pairs that are listed for a candidate at most.
   Span<std::uint32_t> next;              ///< Of each candidate: the near pair to begin with, and output: to go on with.
-  AppendView<EarlierPair> pairs;         ///< Output; there must be room.
-  Span<EarlierRange> ranges;             ///< Output, one for each undecided candidate.
-  AppendView<std::uint32_t> unfinished;  ///< Output: candidates with more pairs than were listed.
+  Span<EarlierPair> pairs;               ///< Output, shape [undecided][each].
+  Span<std::uint32_t> counts;            ///< Output: how many there are, shape [undecided].
+  AppendView<std::uint32_t> unfinished;  ///< Output: candidates that may have more pairs.
 
   /// Undecided candidate i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const std::uint32_t candidate = undecided[i];
-    std::uint32_t count = 0;
-    std::uint32_t after = next[candidate];
-    for (std::uint32_t k = after; count < most && find(candidate, k); after = ++k) ++count;
-    const std::uint64_t begin = pairs.take(count);
-    ranges[i] = {begin, begin + count};
-    std::uint32_t k = next[candidate];
-    for (std::uint32_t listed = 0; listed < count && find(candidate, k); ++k, ++listed)
-      pairs.put(begin + listed, {candidate, k, found[candidate]});
-    next[candidate] = after;
-    if (count == most) unfinished.append_together(candidate);
-  }
-
- private:
-  /// Goes on to the next near pair that may be earlier. @return false if there is none
-  DISMANTLE_HOST_DEVICE bool find(std::uint32_t candidate, std::uint32_t& k) const {
     const StraightMotion motion(batch.displacements[candidate]);
-    const double toi = found[candidate].toi, reach = toi * motion.distance, least = least_rate(toi);
+    const SoonestPairs tested = soonest[candidate];
+    const CandidateContact known = found[candidate];
+    const double reach = known.toi * motion.distance, least = least_rate(known.toi);
     const Span<const NearLeaves> near = batch.lists.near;
-    for (; k < near.size() && near[k].gap <= reach; ++k)
-      if (near[k].closing_rate(motion) > least && !soonest[candidate].has(k)) return true;
-    return false;
+    std::uint32_t count = 0, k = next[candidate];
+    for (; count < each && k < near.size() && near[k].gap <= reach; ++k)
+      if (batch.lists.closing_rate(k, motion, least) > least && !tested.has(k))
+        pairs[i * each + count++] = {candidate, k, known};
+    next[candidate] = k;
+    counts[i] = count;
+    if (count == each) unfinished.append_together(candidate);
   }
 };
 
-/// Item: a listed pair.
+/// Item: room for a listed pair.
 struct TestEarlier {
-  StraightBatch batch;      ///< The translations.
-  Span<EarlierPair> pairs;  ///< Their contacts are set.
+  StraightBatch batch;               ///< The translations.
+  std::uint32_t each;                ///< As of ListEarlier.
+  Span<const std::uint32_t> counts;  ///< Shape [undecided].
+  Span<EarlierPair> pairs;           ///< Their contacts are set, shape [undecided][each].
 
-  /// Pair i.
+  /// Pair i % each of undecided candidate i / each.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
+    if (i % each >= counts[i / each]) return;
     EarlierPair& pair = pairs[i];
     pair.contact = batch.contact(pair.candidate, batch.lists.near[pair.near].leaves, pair.contact);
   }
@@ -219,15 +201,19 @@ struct TestEarlier {
 /// Item: an undecided candidate.
 struct TakeEarliest {
   Span<const std::uint32_t> undecided;  ///< Candidates.
-  Span<const EarlierRange> ranges;      ///< Of each undecided candidate.
-  Span<const EarlierPair> pairs;        ///< All that were listed.
+  std::uint32_t each;                   ///< As of ListEarlier.
+  Span<const std::uint32_t> counts;     ///< Shape [undecided].
+  Span<const EarlierPair> pairs;        ///< All that were listed, shape [undecided][each].
   Span<CandidateContact> found;         ///< Of each candidate: the first contact so far.
 
   /// Undecided candidate i.
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    CandidateContact& earliest = found[undecided[i]];
-    for (std::uint64_t k = ranges[i].begin; k < ranges[i].end; ++k)
-      if (pairs[k].contact.toi < earliest.toi) earliest = pairs[k].contact;
+    CandidateContact earliest = found[undecided[i]];
+    for (std::uint32_t k = 0; k < counts[i]; ++k) {
+      const CandidateContact& contact = pairs[i * each + k].contact;
+      if (contact.toi < earliest.toi) earliest = contact;
+    }
+    found[undecided[i]] = earliest;
   }
 };
 

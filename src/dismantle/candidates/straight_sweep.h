@@ -15,7 +15,7 @@ template <class Queue>
 class StraightSweep {
  public:
   /// @param most_pairs room for near pairs that are tested together, if more than a candidate's
-  explicit StraightSweep(Queue& queue, std::size_t most_pairs = 1 << 22) : most_pairs_(most_pairs), counts_(queue, 1) {}
+  explicit StraightSweep(Queue& queue, std::size_t most_pairs = 1 << 22) : most_pairs_(most_pairs), left_(queue, 1) {}
 
   /// Finds the first contacts of translations. @param displacements on the device [mm, world]
   /// @param found output, one for each displacement
@@ -23,15 +23,11 @@ class StraightSweep {
            Span<CandidateContact> found);
 
  private:
-  static constexpr std::size_t kFirstRound = 1, kLargestRound = 1024;  // pairs of a candidate that a round tests
-
-  /// What kernels have counted.
-  struct Counts {
-    std::uint64_t listed = 0, left = 0;
-  };
+  // Pairs of a candidate that a round tests: 1 in the first, then more and more, as contacts hardly get earlier.
+  static constexpr std::uint32_t kRoundGrowth = 4, kLargestRound = 1024;
 
   Span<const std::uint64_t> sorted_by_direction(Queue& queue, Span<const Vec3> displacements);
-  void clear_counts(Queue& queue);
+  void clear_left(Queue& queue);
   std::size_t counted_left(Queue& queue);
 
   std::size_t most_pairs_;
@@ -39,9 +35,9 @@ class StraightSweep {
   DeviceArray<std::byte> sort_scratch_;
   DeviceArray<SoonestPairs> soonest_;
   DeviceArray<std::uint32_t> next_, undecided_[2];
-  DeviceArray<EarlierRange> ranges_;
+  DeviceArray<std::uint32_t> counts_;
   DeviceArray<EarlierPair> pairs_;
-  MirroredArray<Counts> counts_;
+  MirroredArray<std::uint64_t> left_;  // one: candidates that are undecided after a round
 };
 
 template <class Queue>
@@ -54,35 +50,26 @@ void StraightSweep<Queue>::run(Queue& queue, const CandidateScene& scene, const 
   const Span<std::uint32_t> next = room_for(queue, next_, count);
   Span<std::uint32_t> undecided = room_for(queue, undecided_[0], count);
   Span<std::uint32_t> unfinished = room_for(queue, undecided_[1], count);
-  const Span<EarlierRange> ranges = room_for(queue, ranges_, count);
-  std::uint64_t* const listed = &counts_.on_device().data()->listed;
-  std::uint64_t* const left = &counts_.on_device().data()->left;
+  std::uint64_t* const left_count = left_.on_device().data();
 
-  clear_counts(queue);
+  clear_left(queue);
   queue.launch(count, FindSoonest{batch, soonest});
-  queue.launch(count, TestSoonest{batch, soonest, found, next, {undecided, left}});
-  std::size_t each = kFirstRound;
+  queue.launch(count, TestSoonest{batch, soonest, found, next, {undecided, left_count}});
+  std::uint32_t each = 1;
   for (std::size_t open = counted_left(queue); open > 0; open = counted_left(queue)) {
-    const std::size_t together = std::min(open, std::max<std::size_t>(1, most_pairs_ / each));
+    const std::size_t together = std::min<std::size_t>(open, std::max<std::size_t>(1, most_pairs_ / each));
     const Span<EarlierPair> pairs = room_for(queue, pairs_, together * each);
-    clear_counts(queue);
+    const Span<std::uint32_t> counts = room_for(queue, counts_, together);
+    clear_left(queue);
     for (std::size_t begin = 0; begin < open; begin += together) {
       const Span<const std::uint32_t> part = undecided.subspan(begin, std::min(together, open - begin));
-      queue.launch(1, ForgetListed{listed});
-      queue.launch(part.size(), ListEarlier{batch,
-                                            part,
-                                            soonest,
-                                            found,
-                                            static_cast<std::uint32_t>(each),
-                                            next,
-                                            {pairs, listed},
-                                            ranges,
-                                            {unfinished, left}});
-      queue.launch_counted(pairs.size(), listed, TestEarlier{batch, pairs});
-      queue.launch(part.size(), TakeEarliest{part, ranges, pairs, found});
+      queue.launch(part.size(),
+                   ListEarlier{batch, part, soonest, found, each, next, pairs, counts, {unfinished, left_count}});
+      queue.launch(part.size() * each, TestEarlier{batch, each, counts, pairs});
+      queue.launch(part.size(), TakeEarliest{part, each, counts, pairs, found});
     }
     std::swap(undecided, unfinished);
-    each = std::min(2 * each, kLargestRound);
+    each = std::min(kRoundGrowth * each, kLargestRound);
   }
   queue.launch(count, SweepFar{batch, found});
 }
@@ -97,16 +84,16 @@ Span<const std::uint64_t> StraightSweep<Queue>::sorted_by_direction(Queue& queue
 }
 
 template <class Queue>
-void StraightSweep<Queue>::clear_counts(Queue& queue) {
-  counts_.on_host()[0] = {};
-  counts_.copy_up(queue);
+void StraightSweep<Queue>::clear_left(Queue& queue) {
+  left_.on_host()[0] = 0;
+  left_.copy_up(queue);
 }
 
 template <class Queue>
 std::size_t StraightSweep<Queue>::counted_left(Queue& queue) {
-  counts_.copy_down(queue);
+  left_.copy_down(queue);
   queue.wait();
-  return counts_.on_host()[0].left;
+  return left_.on_host()[0];
 }
 
 }  // namespace dismantle
