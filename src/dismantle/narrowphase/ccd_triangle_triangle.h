@@ -200,11 +200,4 @@ DISMANTLE_HOST_DEVICE inline CcdResult ccd_triangle_triangle(const TriangleMotio
   return ccd_triangle_triangle(a, b, allowed, Vec3{}).ccd;
 }
 
-/// True if the cheap axes that ccd_triangle_triangle(a, b, 0) tries first show that it is Free.
-DISMANTLE_HOST_DEVICE inline bool is_quickly_free(const TriangleMotion& a, const TriangleMotion& b) {
-  const detail::TrianglePair pair(a, b, 0);
-  detail::TrianglePair::Axes best(pair.hulls(), 0, Vec3{});
-  return pair.start(best);
-}
-
 }  // namespace dismantle

@@ -70,11 +70,6 @@ DISMANTLE_HOST_DEVICE inline CcdResult ccd_with_ghosts(const GhostMotion& a, con
   return second;
 }
 
-/// True if the cheap axes that ccd_with_ghosts() tries first show that it is Free.
-DISMANTLE_HOST_DEVICE inline bool is_quickly_free(const GhostMotion& a, const GhostMotion& b) {
-  return is_quickly_free(a.ghost, b.triangle) && is_quickly_free(a.triangle, b.ghost);
-}
-
 /// Shortens a length by a relative 1e-6 before it is compared in float32: more than the rounding of a difference of
 /// bounds.
 inline constexpr double kPlayRounding = 1 - 1e-6;
@@ -160,35 +155,6 @@ struct NarrowPhaseKernel {
       if (overlap_by_less(bounds[p.a], bounds[p.b], ghosts.play(p))) return;
       sink.tested(1);
       const CcdResult ccd = certified(p, rule, 0, last);
-      if (ccd.status == CcdStatus::Contact) sink.contact({pairs[i], last * ccd.toi});
-    }
-  }
-
-  /// The first part of run<kTest>() of one continuous test: the culls. Nearly all pairs end here, and on a GPU a warp
-  /// of them does not wait for those that take longer. @return true if end_test() must decide the pair
-  template <unsigned kTest, class Sink>
-  DISMANTLE_HOST_DEVICE bool begin_test(std::size_t i, double last, Sink& sink) const {
-    const NodePair p = pair_of_key(pairs[i]);
-    const PairRule rule = rules.find(component_of[p.a], component_of[p.b]);
-    if (rule.test == PairTest::None || rule.test == PairTest::Discrete) return false;
-    const bool elementary_test = rule.test == PairTest::Ordinary && test == ElementaryTest::Elementary;
-    if (elementary_test != (kTest == kElementaryTest)) return false;
-    if constexpr (kTest == kElementaryTest) {
-      return cull == PairCull::None || !elementary_apart(triangles.motion(p.a), triangles.motion(p.b));
-    } else {
-      if (overlap_by_less(bounds[p.a], bounds[p.b], ghosts.play(p))) return false;
-      sink.tested(1);
-      return !is_quickly_free(part_of_motion(p.a, rule.ghost_a, 0, last), part_of_motion(p.b, rule.ghost_b, 0, last));
-    }
-  }
-  /// The rest of run<kTest>() for a pair that begin_test() leaves.
-  template <unsigned kTest, class Sink>
-  DISMANTLE_HOST_DEVICE void end_test(std::size_t i, double last, Sink& sink) const {
-    const NodePair p = pair_of_key(pairs[i]);
-    if constexpr (kTest == kElementaryTest) {
-      elementary(i, p, sink);
-    } else {
-      const CcdResult ccd = certified(p, rules.find(component_of[p.a], component_of[p.b]), 0, last);
       if (ccd.status == CcdStatus::Contact) sink.contact({pairs[i], last * ccd.toi});
     }
   }

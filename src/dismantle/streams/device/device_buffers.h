@@ -175,21 +175,19 @@ class Buffers {
         pending{DeviceArray<std::uint64_t>(queue, capacity), DeviceArray<std::uint64_t>(queue, capacity)},
         triangle_pairs(queue, capacity),
         sorted_pairs(queue, capacity),
-        undecided_pairs(queue, capacity),
         intersections(queue, capacity),
         contacts(queue, capacity),
         sort_scratch(queue, queue.sort_scratch_bytes(capacity)) {}
 
-  DeviceArray<std::uint64_t> front;            ///< S_f
-  DeviceArray<std::uint64_t> kept;             ///< New nodes of the front.
-  DeviceArray<std::uint64_t> sprouted;         ///< Slots of the front that are replaced.
-  DeviceArray<std::uint64_t> pending[2];       ///< Pairs for the next round; rounds alternate between the two.
-  DeviceArray<std::uint64_t> triangle_pairs;   ///< S_t, in the order appended.
-  DeviceArray<std::uint64_t> sorted_pairs;     ///< S_t, ascending.
-  DeviceArray<std::uint64_t> undecided_pairs;  ///< Slots of S_t that a round's cheap axes leave.
-  DeviceArray<std::uint64_t> intersections;    ///< Intersecting pairs of S_i.
-  DeviceArray<TrianglePairContact> contacts;   ///< Pairs that block the motion.
-  DeviceArray<std::byte> sort_scratch;         ///< For the queue's sort.
+  DeviceArray<std::uint64_t> front;           ///< S_f
+  DeviceArray<std::uint64_t> kept;            ///< New nodes of the front.
+  DeviceArray<std::uint64_t> sprouted;        ///< Slots of the front that are replaced.
+  DeviceArray<std::uint64_t> pending[2];      ///< Pairs for the next round; rounds alternate between the two.
+  DeviceArray<std::uint64_t> triangle_pairs;  ///< S_t, in the order appended.
+  DeviceArray<std::uint64_t> sorted_pairs;    ///< S_t, ascending.
+  DeviceArray<std::uint64_t> intersections;   ///< Intersecting pairs of S_i.
+  DeviceArray<TrianglePairContact> contacts;  ///< Pairs that block the motion.
+  DeviceArray<std::byte> sort_scratch;        ///< For the queue's sort.
 
   /// The sizes of the arrays of the front.
   StepCapacity capacity() const {
@@ -227,7 +225,6 @@ bool Buffers::grow_front(Queue& queue, const StepCounters& needed) {
   }
   if (grow(queue, triangle_pairs, needed.triangle_pairs)) {
     sorted_pairs = DeviceArray<std::uint64_t>(queue, triangle_pairs.size());
-    undecided_pairs = DeviceArray<std::uint64_t>(queue, triangle_pairs.size());
     sort_scratch = DeviceArray<std::byte>(queue, queue.sort_scratch_bytes(triangle_pairs.size()));
     grown = true;
   }

@@ -54,7 +54,6 @@ struct StepCounters {
   std::uint64_t intersections = 0;                  ///< Intersecting triangle pairs of S_i.
   std::uint64_t tests = 0;                          ///< Continuous tests left by the filters.
   std::uint64_t reported = 0;                       ///< Contacts in the report.
-  std::uint64_t undecided[2][kNarrowRounds] = {};   ///< Pairs that the culls of certified, elementary tests leave.
   std::uint64_t first_toi[kNarrowRounds + 1] = {};  ///< word_of_time of the first contact in the rounds before each.
 };
 
@@ -255,7 +254,6 @@ struct BeginNarrowPhase {
     if (i > 0) return;
     counters->front = counters->next_front;
     counters->contacts = counters->intersections = counters->tests = counters->reported = 0;
-    for (int k = 0; k < kNarrowRounds; ++k) counters->undecided[0][k] = counters->undecided[1][k] = 0;
     for (std::uint64_t& word : counters->first_toi) word = word_of_time(1);
   }
 };
@@ -286,38 +284,10 @@ struct NarrowSink {
   ///@}
 };
 
-/// The culls of one continuous test for one round of S_t. Item: a triangle pair of the round.
-template <unsigned kTest>
-struct BeginTests {
-  NarrowPhaseKernel kernel;             ///< Its pairs are all slots of S_t.
-  NarrowSink sink;                      ///< Output.
-  std::size_t begin;                    ///< First triangle pair of the round.
-  AppendView<std::uint64_t> undecided;  ///< Output: the slots that the culls leave.
-
-  /// Triangle pair `begin` + i.
-  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    const StepCounters& counters = *sink.counters;
-    if (counters.complete == 0 || begin + i >= counters.triangle_pairs) return;
-    if (kernel.template begin_test<kTest>(begin + i, horizon_of(counters, sink.round), sink))
-      undecided.append_together(begin + i);
-  }
-};
-
-/// One continuous test for what BeginTests leaves. Item: a slot.
-template <unsigned kTest>
-struct EndTests {
-  NarrowPhaseKernel kernel;             ///< Its pairs are all slots of S_t.
-  NarrowSink sink;                      ///< Output.
-  Span<const std::uint64_t> undecided;  ///< Slots of S_t.
-
-  /// Number i of them.
-  DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
-    kernel.template end_test<kTest>(undecided[i], horizon_of(*sink.counters, sink.round), sink);
-  }
-};
-
-/// The discrete tests of one round of S_t -> intersections. Item: a triangle pair of the round.
-struct TestIntersections {
+/// One round of S_t -> contacts and intersections, by the tests of `kTests` (NarrowTests). Item: a triangle pair of the
+/// round.
+template <unsigned kTests>
+struct TestTrianglePairs {
   NarrowPhaseKernel kernel;  ///< Its pairs are all slots of S_t.
   NarrowSink sink;           ///< Output.
   std::size_t begin;         ///< First triangle pair of the round.
@@ -326,7 +296,7 @@ struct TestIntersections {
   DISMANTLE_HOST_DEVICE void operator()(std::size_t i) const {
     const StepCounters& counters = *sink.counters;
     if (counters.complete == 0 || begin + i >= counters.triangle_pairs) return;
-    kernel.template run<kDiscreteTest>(begin + i, 1, sink);
+    kernel.template run<kTests>(begin + i, horizon_of(counters, sink.round), sink);
   }
 };
 

@@ -53,9 +53,6 @@ class DeviceStreams {
   void enqueue_narrow_phase();
   void enqueue_narrow_round(std::size_t count, const NarrowPhaseKernel& kernel, const device_code::NarrowSink& sink,
                             std::size_t begin);
-  template <unsigned kTest>
-  void enqueue_tests(std::size_t count, const NarrowPhaseKernel& kernel, const device_code::NarrowSink& sink,
-                     std::size_t begin, std::uint64_t* undecided);
   void run_step();
   bool finish_front();
   void forget_recordings();
@@ -339,21 +336,10 @@ void DeviceStreams<Queue>::enqueue_narrow_phase() {
 template <class Queue>
 void DeviceStreams<Queue>::enqueue_narrow_round(std::size_t count, const NarrowPhaseKernel& kernel,
                                                 const device_code::NarrowSink& sink, std::size_t begin) {
-  enqueue_tests<kCertifiedTest>(count, kernel, sink, begin, shared_counters()->undecided[0]);
+  queue_.launch(count, device_code::TestTrianglePairs<kCertifiedTest>{kernel, sink, begin});
   if (test_ == ElementaryTest::Elementary)
-    enqueue_tests<kElementaryTest>(count, kernel, sink, begin, shared_counters()->undecided[1]);
-  if (has_discrete_rules_) queue_.launch(count, device_code::TestIntersections{kernel, sink, begin});
-}
-
-/// @param undecided counts of each round
-template <class Queue>
-template <unsigned kTest>
-void DeviceStreams<Queue>::enqueue_tests(std::size_t count, const NarrowPhaseKernel& kernel,
-                                         const device_code::NarrowSink& sink, std::size_t begin,
-                                         std::uint64_t* undecided) {
-  const Span<std::uint64_t> slots = buffers_.undecided_pairs.view().subspan(0, count);
-  queue_.launch(count, device_code::BeginTests<kTest>{kernel, sink, begin, {slots, &undecided[sink.round]}});
-  queue_.launch_counted(count, &undecided[sink.round], device_code::EndTests<kTest>{kernel, sink, slots});
+    queue_.launch(count, device_code::TestTrianglePairs<kElementaryTest>{kernel, sink, begin});
+  if (has_discrete_rules_) queue_.launch(count, device_code::TestTrianglePairs<kDiscreteTest>{kernel, sink, begin});
 }
 
 /// Restarts a front that has grown too much, by the rule of Front.
