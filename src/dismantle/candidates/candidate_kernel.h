@@ -251,7 +251,8 @@ inline constexpr int kCandidateStackSize = 224;
 /// How far the points of the moving set are from where they were at the state of the lists, at most, on a piece of a
 /// screw [mm].
 struct Reach {
-  double start, end;  ///< At its ends. A point of a chord is between them.
+  double start;  ///< At its start.
+  double end;    ///< At its end; in between, by linear interpolation.
 
   /// Until a time of the piece.
   DISMANTLE_HOST_DEVICE double until(double time) const {

@@ -178,10 +178,11 @@ std::vector<ScrewStation> DeviceBatch<Queue>::stations_to(const Pose& target) co
 
 template <class Queue>
 std::vector<FirstContact> DeviceBatch<Queue>::screw_contacts(Span<const Pose> targets) {
+  std::vector<std::vector<ScrewStation>> of_targets(targets.size());
+  executor_.for_each(targets.size(), [&](std::size_t i) { of_targets[i] = stations_to(targets[i]); });
   std::vector<ScrewStation> stations;
   std::vector<std::uint32_t> begin{0};
-  for (const Pose& target : targets) {
-    const std::vector<ScrewStation> added = stations_to(target);
+  for (const std::vector<ScrewStation>& added : of_targets) {
     stations.insert(stations.end(), added.begin(), added.end());
     begin.push_back(static_cast<std::uint32_t>(stations.size()));
   }

@@ -102,9 +102,9 @@ struct FindSoonest {
     const Span<const NearLeaves> near = batch.lists.near;
     SoonestPairs first{{}, least_rate(1)};
     double rates[SoonestPairs::kCount];
-    for (int i = 0; i < SoonestPairs::kCount; ++i) {
-      first.near[i] = SoonestPairs::kNone;
-      rates[i] = least_rate(1);
+    for (int k = 0; k < SoonestPairs::kCount; ++k) {
+      first.near[k] = SoonestPairs::kNone;
+      rates[k] = least_rate(1);
     }
     for (std::uint32_t k = 0; k < near.size() && near[k].gap * first.rate <= motion.distance; ++k) {
       const double rate = batch.lists.closing_rate(k, motion, rates[SoonestPairs::kCount - 1]);
