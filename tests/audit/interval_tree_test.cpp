@@ -62,20 +62,31 @@ double sampled_distance(const RelativeMotion& motion, const BoxNode& a, const Bo
   return minimum;
 }
 
-TEST(Interval, ClearanceIsNeverMoreThanTheDistance) {
+/// True if boxes are said to be clear of each other by more than a distance, from the side of either. A box of b that
+/// is looked at from a box of a must give the same as the other way round.
+bool are_clear(const Interval& time, const BoxNode& a, const BoxNode& b, double distance) {
+  const bool from_b = BoxInInterval(time, b, true).is_clear_of(a, distance);
+  EXPECT_EQ(BoxInInterval(time, a, false).is_clear_of(b, distance), from_b);
+  return from_b;
+}
+
+TEST(BoxInInterval, IsClearOfNothingThatComesNearer) {
   Draw draw(11);
-  int positive = 0;
+  int positive = 0, half_way = 0;
   for (int i = 0; i < 20000; ++i) {
     const RelativeMotion motion{draw.pose(), draw.screw()};
     const BoxNode a = draw.box(), b = draw.box();
-    const double clearance = interval_of(motion).clearance(a, b);
-    positive += clearance > 0 ? 1 : 0;
-    ASSERT_LE(clearance, sampled_distance(motion, a, b) + 1e-9) << "scene " << i;
+    const Interval time = interval_of(motion);
+    const double distance = sampled_distance(motion, a, b);
+    ASSERT_FALSE(are_clear(time, a, b, distance + 1e-9)) << "scene " << i;
+    positive += are_clear(time, a, b, 0) ? 1 : 0;
+    half_way += are_clear(time, a, b, 0.5 * distance) ? 1 : 0;
   }
-  EXPECT_GT(positive, 4000) << "it must not be trivially 0";
+  EXPECT_GT(positive, 4000) << "it must not be trivially false";
+  EXPECT_GT(half_way, 2000);
 }
 
-TEST(Interval, ClearanceHoldsForARodThatSwingsPastAPoint) {
+TEST(BoxInInterval, IsNotClearOfAPointThatARodSwingsPast) {
   // The rod lies along x, turns about its own middle, and its tip passes the point from below.
   RelativeMotion motion;
   motion.screw.axis = {0, 0, 1};
@@ -84,9 +95,9 @@ TEST(Interval, ClearanceHoldsForARodThatSwingsPastAPoint) {
   rod.half = {10, 0, 0};
   rod.radius = rod.reach = 10;
   point.center = {9.9, 0.9, 0};
-  EXPECT_LE(interval_of(motion).clearance(point, rod), 0);
+  EXPECT_FALSE(are_clear(interval_of(motion), point, rod, 0));
   point.center.y = 1.2;
-  EXPECT_GT(interval_of(motion).clearance(point, rod), 0);
+  EXPECT_TRUE(are_clear(interval_of(motion), point, rod, 0));
 }
 
 TEST(Interval, ReachBoundsTheTravelOfAPoint) {
@@ -133,7 +144,6 @@ TEST(IntervalTree, BoundsEveryInstantOfEveryInterval) {
     const std::uint32_t i = stack.back();
     stack.pop_back();
     const Interval& time = tree[i];
-    const double clearance = time.clearance(a, b);
     for (std::uint32_t k = time.first; k < time.first + time.count; ++k) {
       RelativeMotion part = scene.pair.motions[k];
       if (time.one_segment()) {
@@ -141,7 +151,7 @@ TEST(IntervalTree, BoundsEveryInstantOfEveryInterval) {
         part.screw.velocity = time.duration * part.screw.velocity;
         part.screw.angle *= time.duration;
       }
-      ASSERT_LE(clearance, sampled_distance(part, a, b) + 1e-9) << "segment " << k;
+      ASSERT_FALSE(are_clear(time, a, b, sampled_distance(part, a, b) + 1e-9)) << "segment " << k;
     }
     if (!tree.can_split(i)) continue;
     for (const std::uint32_t half : tree.halves(i)) stack.push_back(half);

@@ -50,6 +50,40 @@ TEST(SolidBody, HasTheWindingNumberOfTheDefinition) {
   }
 }
 
+TEST(SolidBody, TellsTheInsideFromTheLastPoint) {
+  constexpr std::uint64_t kSeed = 83;
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> uniform(-2, 2);
+  const TriangleMesh box = scenes::box({-1, -1, -1}, {1, 1, 1}), ball = depth_scenes::ball(16, 8, 1, {});
+  int inside = 0, outside = 0, told = 0;
+  for (const TriangleMesh& mesh : {box, inside_out(box), cracked(box, 4), without(box, 3), ball, cracked(ball, 20)}) {
+    const SolidBody body = body_of(mesh);
+    SolidBody::LastPoint last;
+    Vec3 p;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 before = p;
+      // Steps of several lengths; some end on the surface.
+      p = i % 7 == 0 ? Vec3{uniform(random), uniform(random), uniform(random)}
+                     : p + 0.2 * Vec3{uniform(random), uniform(random), uniform(random)};
+      if (i % 11 == 0) p.x = 1;
+      if (body.surface().closed() && body.surface().closest(p).distance > 1e-6) {
+        const std::optional<int> between = body.surface().crossings_between(before, p);
+        told += between ? 1 : 0;
+        if (between) {
+          EXPECT_EQ(body.surface().ray_crossings(before).number, body.surface().ray_crossings(p).number + *between);
+        }
+      }
+      const bool found = body.inside(p, last);
+      if (body.surface().closest(p).distance < 1e-6) continue;  // undefined on the surface
+      EXPECT_EQ(found, body.inside(p)) << "point " << i << ", seed " << kSeed;
+      (found ? inside : outside) += 1;
+    }
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(outside, 500);
+  EXPECT_GT(told, 500);
+}
+
 TEST(SolidBody, TellsSolidsFromSheets) {
   const TriangleMesh box = scenes::box({-1, -1, -1}, {1, 1, 1});
   EXPECT_TRUE(body_of(box).closed());
@@ -102,7 +136,8 @@ TEST(SolidBody, BoundsWhereTheOutsideOfAnOpenSolidEnds) {
         q{uniform(random), uniform(random), uniform(random)};
     const double radius = std::pow(10, -2 * unit(random));
     const double gap = body.surface().closest(p).distance - radius;
-    if (!(gap > 0) || !body.outside_throughout(p, radius, 0)) continue;
+    SolidBody::LastPoint none;
+    if (!(gap > 0) || !body.outside_throughout(p, radius, 0, none)) continue;
     ++certain;
     EXPECT_FALSE(body.inside(p + radius * unit(random) * normalized(q))) << "seed " << kSeed;
   }

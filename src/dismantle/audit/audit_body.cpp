@@ -10,12 +10,13 @@ namespace dismantle::audit {
 
 namespace {
 
-double distance_to_segment(Vec3 a, Vec3 b, Vec3 point) {
+double squared_distance_to_segment(Vec3 a, Vec3 b, Vec3 point) {
   const Vec3 edge = b - a;
   const double squared = dot(edge, edge);
   double s = squared > 0 ? dot(point - a, edge) / squared : 0;
   s = s < 0 ? 0 : (s > 1 ? 1 : s);
-  return length(point - (a + s * edge));
+  const Vec3 offset = point - (a + s * edge);
+  return dot(offset, offset);
 }
 
 double squared_distance_to_box(const BoxNode& node, Vec3 point) {
@@ -48,6 +49,9 @@ const Mat3* ray_frames(int& count) {
   return frames.data();
 }
 
+/// Boxes are enlarged by this share of the body's size, for rounding.
+constexpr double kBoxMargin = 1e-9;
+
 /// Twice the signed area of (point, a, b) in the plane perpendicular to the ray. Swapping a and b negates it exactly,
 /// so that two triangles always agree about the side of their common edge on which the ray is.
 double side_of_edge(Vec3 a, Vec3 b, Vec3 point) {
@@ -76,8 +80,9 @@ double distance_to_triangle(const Triangle& t, Vec3 point) {
     for (int k = 0; k < 3 && above; ++k) above = dot(cross(normal, t[(k + 1) % 3] - t[k]), point - t[k]) >= 0;
     if (above) return std::fabs(dot(normal, point - t[0])) / std::sqrt(squared);
   }
-  return std::min({distance_to_segment(t[0], t[1], point), distance_to_segment(t[1], t[2], point),
-                   distance_to_segment(t[2], t[0], point)});
+  return std::sqrt(
+      std::min({squared_distance_to_segment(t[0], t[1], point), squared_distance_to_segment(t[1], t[2], point),
+                squared_distance_to_segment(t[2], t[0], point)}));
 }
 
 AuditBody::AuditBody(const Component& component)
@@ -174,10 +179,48 @@ SurfacePoint AuditBody::closest(Vec3 point, std::uint32_t hint) const {
   return best;
 }
 
-AuditBody::Winding AuditBody::winding(Vec3 point, const Mat3& frame) const {
+std::optional<std::uint32_t> AuditBody::face_within(Vec3 point, double distance, std::uint32_t hint) const {
+  if (distance_to_triangle(triangle(hint), point) <= distance) return hint;
+  std::uint32_t stack[128];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t i = stack[--depth];
+    const BoxNode& node = nodes_[i];
+    if (squared_distance_to_box(node, point) > distance * distance) continue;
+    if (node.leaf()) {
+      if (distance_to_triangle(triangle(node.face), point) <= distance) return node.face;
+      continue;
+    }
+    stack[depth++] = node.right;
+    stack[depth++] = i + 1;
+  }
+  return std::nullopt;
+}
+
+AuditBody::Crossing AuditBody::crossing(std::uint32_t face, Vec3 point, const Mat3& frame) const {
   constexpr double kUndecided = 1e-13;
-  const double margin = 1e-9 * nodes_[0].reach;
   const Vec3 origin = frame * point;
+  const Triangle t = triangle(face);
+  const Vec3 p[3] = {frame * t[0], frame * t[1], frame * t[2]};
+  const double s[3] = {side_of_edge(p[1], p[2], origin), side_of_edge(p[2], p[0], origin),
+                       side_of_edge(p[0], p[1], origin)};
+  const bool positive = s[0] > 0 && s[1] > 0 && s[2] > 0, negative = s[0] < 0 && s[1] < 0 && s[2] < 0;
+  const double undecided = kUndecided * nodes_[0].reach * (nodes_[0].reach + length(point));
+  const bool outside_surely = (s[0] > undecided || s[1] > undecided || s[2] > undecided) &&
+                              (s[0] < -undecided || s[1] < -undecided || s[2] < -undecided);
+  Crossing found;
+  if (outside_surely) return found;
+  for (const double value : s)
+    if (std::fabs(value) <= undecided) found.certain = false;
+  if (!positive && !negative) return found;
+  found.number = positive ? 1 : -1;
+  found.height = (s[0] * p[0].z + s[1] * p[1].z + s[2] * p[2].z) / (s[0] + s[1] + s[2]) - origin.z;
+  return found;
+}
+
+AuditBody::Winding AuditBody::winding(Vec3 point, const Mat3& frame) const {
+  const double margin = kBoxMargin * nodes_[0].reach;
   Winding result;
   std::uint32_t stack[128];
   int depth = 0;
@@ -191,22 +234,44 @@ AuditBody::Winding AuditBody::winding(Vec3 point, const Mat3& frame) const {
       stack[depth++] = i + 1;
       continue;
     }
-    const Triangle t = triangle(node.face);
-    const Vec3 p[3] = {frame * t[0], frame * t[1], frame * t[2]};
-    const double s[3] = {side_of_edge(p[1], p[2], origin), side_of_edge(p[2], p[0], origin),
-                         side_of_edge(p[0], p[1], origin)};
-    const bool positive = s[0] > 0 && s[1] > 0 && s[2] > 0, negative = s[0] < 0 && s[1] < 0 && s[2] < 0;
-    const double undecided = kUndecided * nodes_[0].reach * (nodes_[0].reach + length(point));
-    const bool outside_surely = (s[0] > undecided || s[1] > undecided || s[2] > undecided) &&
-                                (s[0] < -undecided || s[1] < -undecided || s[2] < -undecided);
-    if (outside_surely) continue;
-    for (const double value : s)
-      if (std::fabs(value) <= undecided) result.certain = false;
-    if (!positive && !negative) continue;
-    const double height = (s[0] * p[0].z + s[1] * p[1].z + s[2] * p[2].z) / (s[0] + s[1] + s[2]);
-    if (height > origin.z) result.number += positive ? 1 : -1;
+    const Crossing found = crossing(node.face, point, frame);
+    result.certain = result.certain && found.certain;
+    if (found.height > 0) result.number += found.number;
   }
   return result;
+}
+
+std::optional<int> AuditBody::crossings_between(Vec3 from, Vec3 to) const {
+  const double way = length(to - from), margin = kBoxMargin * nodes_[0].reach;
+  if (way == 0) return 0;
+  const Vec3 direction = (1 / way) * (to - from), size = max(direction, -direction);
+  const Vec3 least = size.x <= size.y && size.x <= size.z ? Vec3{1, 0, 0}
+                     : size.y <= size.z                   ? Vec3{0, 1, 0}
+                                                          : Vec3{0, 0, 1};
+  const Vec3 across = normalized(cross(direction, least));
+  const Mat3 frame{{across, cross(direction, across), direction}};
+  const Vec3 center = (from + to) / 2.0, half = max(to - center, center - to) + Vec3{margin, margin, margin};
+  int number = 0;
+  std::uint32_t stack[128];
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t i = stack[--depth];
+    const BoxNode& node = nodes_[i];
+    const Vec3 offset = node.center - center, apart = max(offset, -offset) - (half + node.half);
+    if (apart.x > 0 || apart.y > 0 || apart.z > 0) continue;
+    if (!node.leaf()) {
+      stack[depth++] = node.right;
+      stack[depth++] = i + 1;
+      continue;
+    }
+    const Crossing found = crossing(node.face, from, frame);
+    if (!found.certain) return std::nullopt;
+    if (found.number == 0) continue;
+    if (std::fabs(found.height) <= margin || std::fabs(found.height - way) <= margin) return std::nullopt;
+    if (found.height > 0 && found.height < way) number += found.number;
+  }
+  return number;
 }
 
 bool AuditBody::contains(Vec3 point) const {
@@ -221,7 +286,7 @@ RayCrossings AuditBody::ray_crossings(Vec3 point, int first) const {
   RayCrossings last;
   for (int k = first; k < count; ++k) {
     const Winding found = winding(point, frames[k]);
-    last = {found.number, frames[k].row[2]};
+    last = {found.number, frames[k].row[2], found.certain};
     if (found.certain) break;
   }
   return last;

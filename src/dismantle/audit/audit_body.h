@@ -5,6 +5,7 @@
 #include "dismantle/geometry/triangle_mesh.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace dismantle::audit {
@@ -29,8 +30,9 @@ struct SurfacePoint {
 
 /// The signed number of faces that a ray crosses: for a closed surface, the winding number of the ray's start.
 struct RayCrossings {
-  int number = 0;  ///< Faces that are crossed from their inner side, minus those from their outer side.
-  Vec3 direction;  ///< Of the ray, of unit length.
+  int number = 0;       ///< Faces that are crossed from their inner side, minus those from their outer side.
+  Vec3 direction;       ///< Of the ray, of unit length.
+  bool certain = true;  ///< False if it passes an edge too closely to tell, in all directions.
 };
 
 /// The distance of `point` from the closed triangle `t` [mm].
@@ -68,6 +70,9 @@ class AuditBody {
 
   /// The distance of a point [mm, body frame] from the surface. @param hint a face to start from @pre !empty()
   SurfacePoint closest(Vec3 point, std::uint32_t hint = 0) const;
+  /// Some face that is no further from a point [mm, body frame] than `distance`; nothing where there is none.
+  /// @param hint a face to start from @pre !empty()
+  std::optional<std::uint32_t> face_within(Vec3 point, double distance, std::uint32_t hint = 0) const;
   /// True if the surface's winding number about the point is not 0, by a ray in general position; undefined on the
   /// surface.
   /// @pre closed()
@@ -77,6 +82,10 @@ class AuditBody {
   /// The crossings of a ray from a point, in the first direction from number `first` on in which it passes no edge too
   /// closely. @pre 0 <= first < kRayDirections
   RayCrossings ray_crossings(Vec3 point, int first = 0) const;
+  /// The signed number of faces between two points, so that it is the difference of their winding numbers; nothing
+  /// where the segment passes an edge, or ends at a face, too closely to tell. @pre the surface is closed; where there
+  /// are cracks, the segment may pass through one
+  std::optional<int> crossings_between(Vec3 from, Vec3 to) const;
 
  private:
   std::uint32_t build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order,
@@ -89,6 +98,13 @@ class AuditBody {
     bool certain = true;
   };
   Winding winding(Vec3 point, const Mat3& frame) const;
+  /// Where the line through a point along the third axis of a frame passes a face.
+  struct Crossing {
+    int number = 0;       // 1 or -1 by the side that it comes from; 0 if it passes by
+    double height = 0;    // along the line, from the point
+    bool certain = true;  // it does not pass too close to an edge
+  };
+  Crossing crossing(std::uint32_t face, Vec3 point, const Mat3& frame) const;
 
   TriangleMesh mesh_;
   Vec3 center_;

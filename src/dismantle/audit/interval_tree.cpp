@@ -38,10 +38,6 @@ Screw scaled(const Screw& screw, double part) {
   return result;
 }
 
-double length_of_positive(Vec3 v) {
-  return length(max(v, Vec3{}));
-}
-
 }  // namespace
 
 double Interval::reach(const BoxNode& b) const {
@@ -49,24 +45,51 @@ double Interval::reach(const BoxNode& b) const {
   return length(motion.velocity(a_from_b * b.center)) + motion.screw.angle * b.radius;
 }
 
-double Interval::clearance(const BoxNode& a, const BoxNode& b) const {
-  const Vec3 center = a_from_b * b.center;
-  const Vec3 offset = center - a.center;
-  if (!one_segment()) {
-    const double in_a = length_of_positive(max(offset, -offset) - (a.half + abs_rotation * b.half));
-    const Vec3 offset_b = b_from_a * offset;
-    const double in_b = length_of_positive(max(offset_b, -offset_b) - (b.half + transposed(abs_rotation) * a.half));
-    return std::max(in_a, in_b) - reach(b);
+BoxInInterval::BoxInInterval(const Interval& interval, const BoxNode& box, bool of_b)
+    : interval_(interval), box_(box), of_b_(of_b) {
+  if (of_b) {
+    along_a_ = along_a(box);
+    along_b_ = along_b(along_a_, box);
+    deviation_ = deviation(along_a_, box);
+  } else {
+    half_in_b_ = transposed(interval.abs_rotation) * box.half;
   }
-  const Vec3 velocity = motion.velocity(center);
-  // Bound of a path's deviation from its tangent: the velocity has constant magnitude and turns about the axis.
-  const double deviation = 0.5 * (motion.acceleration(velocity) + motion.screw.angle * motion.screw.angle * b.radius);
-  const Vec3 near_a = nearest_to_zero(offset, offset + velocity);
-  const double in_a = length_of_positive(near_a - (a.half + swept_a * b.half));
-  if (in_a > deviation) return in_a - deviation;
-  const Vec3 near_b = nearest_to_zero(b_from_a * offset, b_from_a * (offset + velocity));
-  const double in_b = length_of_positive(near_b - (swept_b * b.half + transposed(abs_rotation) * a.half));
-  return std::max(in_a, in_b) - deviation;
+}
+
+BoxInInterval::Swept BoxInInterval::along_a(const BoxNode& of_b) const {
+  const Vec3 center = interval_.a_from_b * of_b.center;
+  if (!interval_.one_segment()) return {center, {}, interval_.abs_rotation * of_b.half};
+  return {center, interval_.motion.velocity(center), interval_.swept_a * of_b.half};
+}
+
+BoxInInterval::Swept BoxInInterval::along_b(const Swept& along_a, const BoxNode& of_b) const {
+  const Vec3 center = interval_.b_from_a * along_a.center;
+  if (!interval_.one_segment()) return {center, {}, of_b.half};
+  return {center, interval_.b_from_a * along_a.velocity, interval_.swept_b * of_b.half};
+}
+
+/// Bound of the distance of the points of a box of b from their linear paths, or from where they are at the reference.
+double BoxInInterval::deviation(const Swept& along_a, const BoxNode& of_b) const {
+  if (!interval_.one_segment()) return interval_.reach(of_b);
+  const double angle = interval_.motion.screw.angle;
+  // The velocity has constant magnitude and turns about the axis.
+  return 0.5 * (interval_.motion.acceleration(along_a.velocity) + angle * angle * of_b.radius);
+}
+
+bool BoxInInterval::is_clear_of(const BoxNode& other, double distance) const {
+  const BoxNode& a = of_b_ ? other : box_;
+  const Swept in_a = of_b_ ? along_a_ : along_a(other);
+  const auto is_clear = [&](Vec3 offset, const Swept& swept, Vec3 half) {
+    const Vec3 gap = max(nearest_to_zero(offset, offset + swept.velocity) - (half + swept.half), Vec3{});
+    const double squared = dot(gap, gap);
+    if (squared <= distance * distance) return false;
+    const double least = distance + (of_b_ ? deviation_ : deviation(in_a, other));
+    return squared > least * least;
+  };
+  if (is_clear(in_a.center - a.center, in_a, a.half)) return true;
+  const Swept in_b = of_b_ ? along_b_ : along_b(in_a, other);
+  const Vec3 half_in_b = of_b_ ? transposed(interval_.abs_rotation) * a.half : half_in_b_;
+  return is_clear(in_b.center - interval_.b_from_a * a.center, in_b, half_in_b);
 }
 
 Interval interval_of(const RelativeMotion& motion) {

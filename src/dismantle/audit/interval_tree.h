@@ -36,8 +36,34 @@ struct Interval {
   bool one_segment() const { return count == 1; }
   /// Bound of the distance of a point of a box of b from its position at the reference [mm].
   double reach(const BoxNode& b) const;
-  /// A lower bound of the distance of two boxes during the interval [mm].
-  double clearance(const BoxNode& a, const BoxNode& b) const;
+};
+
+/// A box of one of the two bodies during an interval, for comparisons with many boxes of the other body.
+class BoxInInterval {
+ public:
+  /// @param interval, box must outlive this @param of_b the box is one of b, otherwise of a
+  BoxInInterval(const Interval& interval, const BoxNode& box, bool of_b);
+
+  /// True if a box of the other body is certainly further away than `distance` throughout the interval.
+  /// @param distance not negative [mm]
+  bool is_clear_of(const BoxNode& other, double distance) const;
+
+ private:
+  /// The region that the points of a box of b cover relative to the linear path of its centre, along some axes.
+  struct Swept {
+    Vec3 center, velocity;  // of the box's centre
+    Vec3 half;              // half sizes of the region
+  };
+  Swept along_a(const BoxNode& of_b) const;
+  Swept along_b(const Swept& along_a, const BoxNode& of_b) const;
+  double deviation(const Swept& along_a, const BoxNode& of_b) const;
+
+  const Interval& interval_;
+  const BoxNode& box_;
+  bool of_b_;
+  Swept along_a_, along_b_;  // of a box of b
+  double deviation_ = 0;     // likewise
+  Vec3 half_in_b_;           // of a box of a
 };
 
 /// The interval of one whole motion.

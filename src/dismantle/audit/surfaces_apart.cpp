@@ -16,7 +16,7 @@ bool surfaces_apart(const AuditBody& a, const AuditBody& b, const RigidTransform
     stack.pop_back();
     const BoxNode& node_a = a.node(i);
     const BoxNode& node_b = b.node(j);
-    if (time.clearance(node_a, node_b) > margin) continue;
+    if (BoxInInterval(time, node_b, true).is_clear_of(node_a, margin)) continue;
     if (node_a.leaf() && node_b.leaf()) {
       const Triangle other = transformed(a_from_b, b.triangle(node_b.face));
       if (widest_gap(a.triangle(node_a.face), other, margin).gap <= margin) return false;

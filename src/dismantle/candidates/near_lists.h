@@ -60,11 +60,10 @@ struct AxisPair {
 
 /// Two leaves that are near each other at the start: the first moves. They meet where the ghost of one meets the other.
 struct NearLeaves {
-  NodePair leaves;  ///< Of the moving set and of a stationary component.
-  double gap = 0;   ///< Lower bound of both distances [mm].
-  AxisPair
-      of_moving_ghost;  ///< Of the widest gaps between the ghost of the moving triangle and the stationary triangle.
-  AxisPair of_fixed_ghost;  ///< Of those between the moving triangle and the ghost of the stationary one.
+  NodePair leaves;           ///< Of the moving set and of a stationary component.
+  double gap = 0;            ///< Lower bound of both distances [mm].
+  AxisPair of_moving_ghost;  ///< The widest gaps between the ghost of the moving triangle and the other triangle.
+  AxisPair of_fixed_ghost;   ///< Those between the moving triangle and the ghost of the stationary one.
 };
 
 /// More axes of NearLeaves, for those that the others do not decide: the normals of the triangles and the ghosts decide

@@ -5,6 +5,8 @@
 #include "dismantle/audit/solid/piece_search.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 namespace dismantle::audit {
 
@@ -32,7 +34,7 @@ class DepthSearch {
 
   DepthFindings run() {
     nodes_.push_back(0);
-    visit(0, 0, {0, 1, pieces_.limit()});
+    visit(0, 0, {0, 1, pieces_.limit(), std::numeric_limits<double>::infinity()});
     DepthFindings found = pieces_.findings();
     found.bound = pieces_.limit();
     found.complete = !pieces_.ended();
@@ -58,23 +60,24 @@ class DepthSearch {
   struct Range {
     std::size_t first = 0, count = 0;
     double reach = 0;
+    double size = 0;  ///< Of what they are near to: its radius and its movement.
   };
+  /// Nodes are looked for anew for what is smaller than this share of what they were found for: for what is hardly
+  /// smaller, nearly all of them are near, too.
+  static constexpr double kSmaller = 0.7;
 
-  double clearance(std::uint32_t interval, const BoxNode& of_points, const BoxNode& of_solid) const {
-    return of_b_ ? tree_[interval].clearance(of_solid, of_points) : tree_[interval].clearance(of_points, of_solid);
-  }
-
-  /// The nodes of `solid` that may come within the limit of a node, not larger than it unless leaves.
-  Range near_nodes(std::uint32_t interval, const BoxNode& box, const Range& parent, bool leaves) {
-    Range near{nodes_.size(), 0, std::min(parent.reach, pieces_.limit())};
+  /// The nodes of `solid` that may come within the limit of a node, not larger than it or leaves.
+  Range near_nodes(std::uint32_t interval, const BoxNode& box, double size, const Range& parent) {
+    Range near{nodes_.size(), 0, std::min(parent.reach, pieces_.limit()), size};
+    const BoxInInterval moving(tree_[interval], box, of_b_);
     stack_.assign(nodes_.begin() + static_cast<std::ptrdiff_t>(parent.first),
                   nodes_.begin() + static_cast<std::ptrdiff_t>(parent.first + parent.count));
     while (!stack_.empty()) {
       const std::uint32_t i = stack_.back();
       stack_.pop_back();
       const BoxNode& node = solid_.surface().node(i);
-      if (clearance(interval, box, node) > near.reach) continue;
-      if (node.leaf() || (!leaves && node.radius <= box.radius)) {
+      if (moving.is_clear_of(node, near.reach)) continue;
+      if (node.leaf() || node.radius <= box.radius) {
         nodes_.push_back(i);
       } else {
         stack_.push_back(node.right);
@@ -85,13 +88,13 @@ class DepthSearch {
     return near;
   }
 
-  /// True if all of a box certainly stays within the limit of the surface of `solid`.
-  bool near_surface(const BoxNode& box, std::uint32_t interval) {
-    const double radius = box.radius + movement(interval, box), limit = pieces_.limit() - pair_.motion.rounding;
-    if (radius >= limit) return false;
-    const SurfacePoint closest = solid_.surface().closest(center(interval, box), last_face_);
-    last_face_ = closest.face;
-    return closest.distance + radius <= limit;
+  /// True if all of a box certainly stays within the limit of the surface of `solid`. @param size as of Range
+  bool near_surface(const BoxNode& box, std::uint32_t interval, double size) {
+    const double distance = pieces_.limit() - pair_.motion.rounding - size;
+    if (distance <= 0) return false;
+    const std::optional<std::uint32_t> face = solid_.surface().face_within(center(interval, box), distance, last_face_);
+    if (face) last_face_ = *face;
+    return face.has_value();
   }
 
   /// The centre of a box of `points` at the reference of an interval, in the frame of `solid` [mm].
@@ -101,9 +104,9 @@ class DepthSearch {
   }
 
   /// True if a box that stays clear of the surface of `solid` during an interval is certainly outside.
-  bool outside(std::uint32_t interval, const BoxNode& box, double gap) const {
-    return solid_.outside_throughout(center(interval, box), solid_.closed() ? 0 : box.radius + movement(interval, box),
-                                     gap);
+  bool outside(std::uint32_t interval, const BoxNode& box, double gap) {
+    const double radius = solid_.closed() ? 0 : box.radius + movement(interval, box);
+    return solid_.outside_throughout(center(interval, box), radius, gap, last_point_);
   }
 
   /// Bound of the movement of a box of `points` relative to `solid` in an interval [mm].
@@ -119,33 +122,31 @@ class DepthSearch {
   void visit(std::uint32_t node, std::uint32_t interval, const Range& parent) {
     if (pieces_.ended() || (!done_.empty() && done_[node])) return;
     const BoxNode& box = points_.surface().node(node);
-    if (near_surface(box, interval)) return;
+    const double move = movement(interval, box), size = box.radius + move;
+    if (near_surface(box, interval, size)) return;
+    const bool in_time =
+        tree_.can_split(interval) && (move > box.radius || (box.leaf() && !tree_[interval].one_segment()));
+    if (box.leaf() && !in_time) {
+      search_face(box, interval, parent);
+      return;
+    }
     const std::size_t before = nodes_.size();
-    const Range near = near_nodes(interval, box, parent, false);
-    if (near.count > 0 || !outside(interval, box, near.reach)) divide(node, interval, near);
+    const bool anew = parent.count == 0 || size < kSmaller * parent.size;
+    const Range near = anew ? near_nodes(interval, box, size, parent) : parent;
+    if (near.count > 0 || !outside(interval, box, near.reach)) {
+      if (in_time) {
+        const std::uint32_t halves[2] = {tree_.halves(interval)[0], tree_.halves(interval)[1]};
+        for (const std::uint32_t half : halves) visit(node, half, near);
+      } else {
+        visit(node + 1, interval, near);
+        visit(box.right, interval, near);
+      }
+    }
     nodes_.resize(before);
   }
 
-  void divide(std::uint32_t node, std::uint32_t interval, const Range& near) {
-    const BoxNode& box = points_.surface().node(node);
-    const bool far_moving = movement(interval, box) > box.radius;
-    if (tree_.can_split(interval) && (far_moving || (box.leaf() && !tree_[interval].one_segment()))) {
-      const std::uint32_t halves[2] = {tree_.halves(interval)[0], tree_.halves(interval)[1]};
-      for (const std::uint32_t half : halves) visit(node, half, near);
-    } else if (box.leaf()) {
-      search_face(box, interval, near);
-    } else {
-      visit(node + 1, interval, near);
-      visit(box.right, interval, near);
-    }
-  }
-
-  void search_face(const BoxNode& box, std::uint32_t interval, const Range& near) {
+  void search_face(const BoxNode& box, std::uint32_t interval, const Range& parent) {
     const Interval& time = tree_[interval];
-    const Range leaves = near_nodes(interval, box, near, true);
-    faces_.clear();
-    for (std::size_t i = 0; i < leaves.count; ++i)
-      faces_.push_back(solid_.surface().node(nodes_[leaves.first + i]).face);
     TimeSlice slice;
     slice.segment = time.first;
     slice.from = time.s;
@@ -153,7 +154,8 @@ class DepthSearch {
     slice.motion = &motions_[time.first - first_segment_];
     slice.start = slice.motion->at(slice.from);
     slice.end = slice.motion->at(slice.to);
-    pieces_.search(slice, points_.surface().triangle(box.face), {faces_, leaves.reach});
+    const Span<const std::uint32_t> nodes(nodes_.data() + parent.first, parent.count);
+    pieces_.search(slice, points_.surface().triangle(box.face), {nodes, std::min(parent.reach, pieces_.limit())});
   }
 
   const DepthPair& pair_;
@@ -164,10 +166,11 @@ class DepthSearch {
   PieceSearch pieces_;
   std::uint32_t first_segment_;
   std::uint32_t last_face_ = 0;
+  SolidBody::LastPoint last_point_;
   std::vector<bool> done_;               // by node of `points`; empty for none
   std::vector<RelativeMotion> motions_;  // of `points` in the frame of `solid`
   std::vector<std::uint32_t> nodes_;     // a stack of ranges of nodes of `solid`
-  std::vector<std::uint32_t> stack_, faces_;
+  std::vector<std::uint32_t> stack_;
 };
 
 }  // namespace

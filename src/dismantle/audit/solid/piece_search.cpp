@@ -15,6 +15,8 @@ namespace {
 constexpr double kDeviationPart = 0.25;
 /// The nearest of so many faces is found by comparing all of them, of more with the tree.
 constexpr std::size_t kFewFaces = 12;
+/// The node of the whole surface.
+constexpr std::uint32_t kRoot[] = {0};
 /// A piece faces neither towards nor away from what it is near where this cosine is smaller.
 constexpr double kAcross = 0.2;
 /// Directions of faces that differ by less than this count once [cosine].
@@ -28,6 +30,13 @@ double squared_distance_of_boxes(const Aabb& a, const Aabb& b) {
 Aabb box_of(const Triangle& t) {
   Aabb box;
   for (int k = 0; k < 3; ++k) box.extend(t[k]);
+  return box;
+}
+
+/// A box around a piece, without the deviation of its arcs.
+Aabb box_of(const SurfacePiece& piece) {
+  Aabb box;
+  for (const Vec3& p : piece.corner) box.extend(p);
   return box;
 }
 
@@ -62,18 +71,21 @@ bool PieceSearch::ended() const {
          (goal_.max_pieces > 0 && findings_.samples >= goal_.max_pieces);
 }
 
-void PieceSearch::search(const TimeSlice& slice, const Triangle& triangle, const NearFaces& near) {
-  faces_.assign(near.faces.begin(), near.faces.end());
+void PieceSearch::search(const TimeSlice& slice, const Triangle& triangle, const NearNodes& near) {
+  const SurfacePiece piece = make_piece(slice, triangle);
+  faces_.clear();
+  add_faces(box_of(piece), near.reach + piece.deviation, near.nodes);
+  // What is clear of the surface is outside if a point of it is.
+  if (faces_.empty() && solid_.outside_throughout(piece.center, piece.radius, near.reach, last_point_)) return;
   check(slice, triangle, {0, faces_.size(), near.reach});
 }
 
 PieceSearch::Range PieceSearch::near_faces(const SurfacePiece& piece, const Range& parent) {
-  Aabb box;
-  for (const Vec3& p : piece.corner) box.extend(p);
+  const Aabb box = box_of(piece);
   Range near{faces_.size(), 0, limit()};
   const double reach = near.reach + piece.deviation;
   if (parent.reach < near.reach) {  // the limit has risen since
-    add_faces(box, reach);
+    add_faces(box, reach, Span<const std::uint32_t>(kRoot, 1));
   } else {
     for (std::size_t i = parent.first; i < parent.first + parent.count; ++i) {
       const std::uint32_t f = faces_[i];
@@ -84,19 +96,18 @@ PieceSearch::Range PieceSearch::near_faces(const SurfacePiece& piece, const Rang
   return near;
 }
 
-void PieceSearch::add_faces(const Aabb& box, double reach) {
-  std::uint32_t stack[128];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t i = stack[--depth];
+void PieceSearch::add_faces(const Aabb& box, double reach, Span<const std::uint32_t> below) {
+  open_.assign(below.begin(), below.end());
+  while (!open_.empty()) {
+    const std::uint32_t i = open_.back();
+    open_.pop_back();
     const BoxNode& node = solid_.surface().node(i);
     if (squared_distance_of_boxes(box, {node.center - node.half, node.center + node.half}) > reach * reach) continue;
     if (node.leaf()) {
       faces_.push_back(node.face);
     } else {
-      stack[depth++] = node.right;
-      stack[depth++] = i + 1;
+      open_.push_back(node.right);
+      open_.push_back(i + 1);
     }
   }
 }
@@ -117,15 +128,14 @@ PieceSearch::Nearest PieceSearch::nearest_face(const SurfacePiece& piece, const 
   return nearest;
 }
 
-bool PieceSearch::clear_when_shifted(const SurfacePiece& piece, Vec3 shift, const Range& near) const {
+bool PieceSearch::clear_when_shifted(const SurfacePiece& piece, Vec3 shift, const Range& near) {
   const Span<const std::uint32_t> faces(faces_.data() + near.first, near.count);
   if (!passes_clear(piece, shift, solid_.surface(), faces, rounding_)) return false;
   const double way = solid_.closed() ? 0 : length(shift);
-  return solid_.outside_throughout(piece.center + shift, piece.radius + way, 0);
+  return solid_.outside_throughout(piece.center + shift, piece.radius + way, 0, last_point_);
 }
 
-bool PieceSearch::ghost_is_clear(const SurfacePiece& piece, const Range& near, const Nearest& nearest,
-                                 bool inside) const {
+bool PieceSearch::ghost_is_clear(const SurfacePiece& piece, const Range& near, const Nearest& nearest, bool inside) {
   const Triangle face = solid_.surface().triangle(nearest.face);
   const Vec3 normal = solid_.orientation() * unit_normal(face);
   Vec3 away = normal;
@@ -165,12 +175,13 @@ bool PieceSearch::near_surface(const SurfacePiece& piece, const Nearest& nearest
          stays_within_either(piece, face, solid_.surface().triangle(other.face), limit);
 }
 
-bool PieceSearch::stays_outside(const SurfacePiece& piece, const Range& near, const Nearest& nearest) const {
-  const bool inside = solid_.inside(piece.center);
+bool PieceSearch::stays_outside(const SurfacePiece& piece, const Range& near, const Nearest& nearest) {
+  const bool inside = solid_.inside(piece.center, last_point_);
   if (!inside) {
     // A point that gets inside across the surface is no deeper than the way to it, in a small piece.
     const bool small = piece.radius <= limit() - rounding_;
-    if (small && (solid_.closed() || solid_.outside_throughout(piece.center, piece.radius, 0))) return true;
+    if (small && (solid_.closed() || solid_.outside_throughout(piece.center, piece.radius, 0, last_point_)))
+      return true;
     if (piece.radius <= goal_.slack / 4) return true;  // in the opening of a surface
     if (clear_when_shifted(piece, {}, near)) return true;
   }
@@ -182,7 +193,9 @@ void PieceSearch::sample(const TimeSlice& slice, const SurfacePiece& piece) {
   const Vec3 body = (piece.body[0] + piece.body[1] + piece.body[2]) / 3.0;
   const Vec3 point = slice.motion->at(s) * body;
   const SurfacePoint closest = solid_.surface().closest(point, last_face_);
-  if (!(closest.distance > std::max(goal_.floor + rounding_, findings_.deepest.depth)) || !solid_.inside(point)) return;
+  if (!(closest.distance > std::max(goal_.floor + rounding_, findings_.deepest.depth)) ||
+      !solid_.inside(point, last_point_))
+    return;
   const DepthSample found{closest.distance, slice.segment, s, true, point};
   findings_.deepest = found;
   if (findings_.first.depth == 0 && found.depth > goal_.floor + goal_.slack / 2) findings_.first = found;

@@ -11,10 +11,10 @@
 
 namespace dismantle::audit {
 
-/// Faces of a body near something.
-struct NearFaces {
-  Span<const std::uint32_t> faces;  ///< Indices of the faces.
-  double reach = 0;                 ///< All that come within this distance are among them [mm].
+/// Nodes of the tree of a body near something.
+struct NearNodes {
+  Span<const std::uint32_t> nodes;  ///< Indices of the nodes.
+  double reach = 0;                 ///< All faces that come within this distance are below them [mm].
 };
 
 /// The part of a depth search that divides triangles and times: both below the boxes.
@@ -28,8 +28,8 @@ class PieceSearch {
   /// True if the search is to end.
   bool ended() const;
   /// Searches a triangle of the other body in a slice of time.
-  /// @param near the faces of `solid` near it during the slice
-  void search(const TimeSlice& slice, const Triangle& triangle, const NearFaces& near);
+  /// @param near the nodes of `solid` near it during the slice
+  void search(const TimeSlice& slice, const Triangle& triangle, const NearNodes& near);
 
   /// The findings; their `point_a` is in the frame of `solid`.
   const DepthFindings& findings() const { return findings_; }
@@ -49,22 +49,24 @@ class PieceSearch {
   void check(const TimeSlice& slice, const Triangle& triangle, const Range& parent);
   void divide(const TimeSlice& slice, const SurfacePiece& piece, const Range& near);
   Range near_faces(const SurfacePiece& piece, const Range& parent);
-  /// Adds the faces whose boxes are within `reach` of a box.
-  void add_faces(const Aabb& box, double reach);
+  /// Adds the faces below some nodes whose boxes are within `reach` of a box.
+  void add_faces(const Aabb& box, double reach, Span<const std::uint32_t> below);
   Nearest nearest_face(const SurfacePiece& piece, const Range& parent);
   /// True if all of the piece certainly stays within the limit of the surface.
   bool near_surface(const SurfacePiece& piece, const Nearest& nearest) const;
   /// True if the piece, or a copy of it shifted by no more than the limit, certainly stays outside.
-  bool stays_outside(const SurfacePiece& piece, const Range& near, const Nearest& nearest) const;
-  bool clear_when_shifted(const SurfacePiece& piece, Vec3 shift, const Range& near) const;
-  bool ghost_is_clear(const SurfacePiece& piece, const Range& near, const Nearest& nearest, bool inside) const;
+  bool stays_outside(const SurfacePiece& piece, const Range& near, const Nearest& nearest);
+  bool clear_when_shifted(const SurfacePiece& piece, Vec3 shift, const Range& near);
+  bool ghost_is_clear(const SurfacePiece& piece, const Range& near, const Nearest& nearest, bool inside);
   void sample(const TimeSlice& slice, const SurfacePiece& piece);
 
   const SolidBody& solid_;
   DepthGoal goal_;
   double rounding_;
   std::vector<std::uint32_t> faces_;  // a stack of ranges
+  std::vector<std::uint32_t> open_;   // of add_faces()
   std::uint32_t last_face_ = 0;
+  SolidBody::LastPoint last_point_;
   DepthFindings findings_;
 };
 

@@ -56,14 +56,30 @@ double SolidBody::winding_by_ray(Vec3 point, int direction) const {
   return crossings.number - strip_angles(open_edges_, -crossings.direction, point) / kSphere;
 }
 
-bool SolidBody::inside(Vec3 point) const {
+bool SolidBody::inside(Vec3 point, LastPoint& last) const {
   if (!solid_ || (closed() && !in_box(surface_.node(0), point))) return false;
-  return std::fabs(winding(point)) > 0.5;
+  if (!closed()) return std::fabs(winding(point)) > 0.5;
+  if (last.winding)
+    if (const std::optional<int> between = surface_.crossings_between(point, last.point)) {
+      const int number = *last.winding + *between;
+      // The segment may pass through a crack: then a ray and it must agree.
+      if (surface_.closed() || surface_.ray_crossings(point).number == number) {
+        last = {point, number};
+        return number != 0;
+      }
+    }
+  if (!surface_.closed()) {
+    last = {point, static_cast<int>(std::lround(winding(point)))};
+    return *last.winding != 0;
+  }
+  const RayCrossings found = surface_.ray_crossings(point);
+  last = {point, found.certain ? std::optional(found.number) : std::nullopt};
+  return found.number != 0;
 }
 
-bool SolidBody::outside_throughout(Vec3 point, double radius, double gap) const {
+bool SolidBody::outside_throughout(Vec3 point, double radius, double gap, LastPoint& last) const {
   if (!solid_) return true;
-  if (closed()) return !inside(point);
+  if (closed()) return !inside(point, last);
   double gradient = 0;
   for (const OpenEdge& edge : open_edges_) {
     const double distance = std::max(distance_to_edge(edge, point) - radius, gap);

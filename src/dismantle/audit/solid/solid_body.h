@@ -4,6 +4,7 @@
 #include "dismantle/audit/audit_body.h"
 #include "dismantle/audit/solid/open_boundary.h"
 
+#include <optional>
 #include <vector>
 
 namespace dismantle::audit {
@@ -33,11 +34,22 @@ class SolidBody {
 
   /// The winding number of the surface about a point [body frame]; undefined on the surface.
   double winding(Vec3 point) const;
+  /// The last point whose winding number was asked for, which that of the next one can start from.
+  struct LastPoint {
+    Vec3 point;                       ///< [body frame]
+    std::optional<int> winding = {};  ///< Nothing at first.
+  };
   /// True if the point is inside: the magnitude of the winding number is more than 1/2. False for sheets.
-  bool inside(Vec3 point) const;
+  /// @param last kept from query to query, of points that are near each other
+  bool inside(Vec3 point, LastPoint& last) const;
+  /// As inside(point, last), for a point that is not near others.
+  bool inside(Vec3 point) const {
+    LastPoint none;
+    return inside(point, none);
+  }
   /// True if no point within `radius` of `point` that can be reached from it without crossing the surface is inside.
   /// @param gap a distance from the surface that none of these points falls below [mm]
-  bool outside_throughout(Vec3 point, double radius, double gap) const;
+  bool outside_throughout(Vec3 point, double radius, double gap, LastPoint& last) const;
 
  private:
   double winding_by_ray(Vec3 point, int direction) const;
