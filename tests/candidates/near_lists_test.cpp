@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/candidates/find_near_lists.h"
+#include "dismantle/candidates/screw_kernels.h"
 #include "dismantle/candidates/straight_sweep.h"
 #include "dismantle/exec/host_queue.h"
 #include "dismantle/streams/guarded_pairs.h"

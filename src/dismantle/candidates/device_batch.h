@@ -4,6 +4,7 @@
 #include "dismantle/candidates/candidate_kernel.h"
 #include "dismantle/candidates/find_near_lists.h"
 #include "dismantle/candidates/motion_batch.h"
+#include "dismantle/candidates/screw_kernels.h"
 #include "dismantle/candidates/straight_sweep.h"
 #include "dismantle/engine/chords.h"
 #include "dismantle/math/screw.h"

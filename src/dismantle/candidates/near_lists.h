@@ -3,7 +3,7 @@
 
 #include "dismantle/bvh/bvh_traverse.h"
 #include "dismantle/core/span.h"
-#include "dismantle/geometry/triangle_mesh.h"
+#include "dismantle/geometry/triangle.h"
 #include "dismantle/math/vec3.h"
 #include "dismantle/narrowphase/separating_axis.h"
 
