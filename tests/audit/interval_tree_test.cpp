@@ -62,8 +62,8 @@ double sampled_distance(const RelativeMotion& motion, const BoxNode& a, const Bo
   return minimum;
 }
 
-/// True if boxes are said to be clear of each other by more than a distance, from the side of either. A box of b that
-/// is looked at from a box of a must give the same as the other way round.
+/// True if the two boxes are found to be further apart than `distance`. Starting from the box of a must give the same
+/// answer as starting from the box of b.
 bool are_clear(const Interval& time, const BoxNode& a, const BoxNode& b, double distance) {
   const bool from_b = BoxInInterval(time, b, true).is_clear_of(a, distance);
   EXPECT_EQ(BoxInInterval(time, a, false).is_clear_of(b, distance), from_b);

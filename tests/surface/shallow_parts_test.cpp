@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a search for deep points keeps for later searches.
+// Tests of ShallowParts: the results that depth searches store and reuse.
 #include "dismantle/surface/depth/shallow_parts.h"
 
 #include "dismantle/surface/depth/swept_depth.h"

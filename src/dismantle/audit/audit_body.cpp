@@ -179,23 +179,34 @@ SurfacePoint AuditBody::closest(Vec3 point, std::uint32_t hint) const {
   return best;
 }
 
-std::optional<std::uint32_t> AuditBody::face_within(Vec3 point, double distance, std::uint32_t hint) const {
-  if (distance_to_triangle(triangle(hint), point) <= distance) return hint;
+template <class MayMeet, class Visit>
+bool AuditBody::visit_faces(const MayMeet& may_meet, const Visit& visit) const {
   std::uint32_t stack[128];
   int depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const std::uint32_t i = stack[--depth];
     const BoxNode& node = nodes_[i];
-    if (squared_distance_to_box(node, point) > distance * distance) continue;
+    if (!may_meet(node)) continue;
     if (node.leaf()) {
-      if (distance_to_triangle(triangle(node.face), point) <= distance) return node.face;
+      if (!visit(node.face)) return false;
       continue;
     }
     stack[depth++] = node.right;
     stack[depth++] = i + 1;
   }
-  return std::nullopt;
+  return true;
+}
+
+std::optional<std::uint32_t> AuditBody::face_within(Vec3 point, double distance, std::uint32_t hint) const {
+  if (distance_to_triangle(triangle(hint), point) <= distance) return hint;
+  std::optional<std::uint32_t> found;
+  visit_faces([&](const BoxNode& node) { return squared_distance_to_box(node, point) <= distance * distance; },
+              [&](std::uint32_t face) {
+                if (distance_to_triangle(triangle(face), point) <= distance) found = face;
+                return !found;
+              });
+  return found;
 }
 
 AuditBody::Crossing AuditBody::crossing(std::uint32_t face, Vec3 point, const Mat3& frame) const {
@@ -222,22 +233,13 @@ AuditBody::Crossing AuditBody::crossing(std::uint32_t face, Vec3 point, const Ma
 AuditBody::Winding AuditBody::winding(Vec3 point, const Mat3& frame) const {
   const double margin = kBoxMargin * nodes_[0].reach;
   Winding result;
-  std::uint32_t stack[128];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t i = stack[--depth];
-    const BoxNode& node = nodes_[i];
-    if (!ray_meets_box(node, point, frame.row[2], margin)) continue;
-    if (!node.leaf()) {
-      stack[depth++] = node.right;
-      stack[depth++] = i + 1;
-      continue;
-    }
-    const Crossing found = crossing(node.face, point, frame);
-    result.certain = result.certain && found.certain;
-    if (found.height > 0) result.number += found.number;
-  }
+  visit_faces([&](const BoxNode& node) { return ray_meets_box(node, point, frame.row[2], margin); },
+              [&](std::uint32_t face) {
+                const Crossing found = crossing(face, point, frame);
+                result.certain = result.certain && found.certain;
+                if (found.height > 0) result.number += found.number;
+                return true;
+              });
   return result;
 }
 
@@ -251,26 +253,20 @@ std::optional<int> AuditBody::crossings_between(Vec3 from, Vec3 to) const {
   const Vec3 across = normalized(cross(direction, least));
   const Mat3 frame{{across, cross(direction, across), direction}};
   const Vec3 center = (from + to) / 2.0, half = max(to - center, center - to) + Vec3{margin, margin, margin};
-  int number = 0;
-  std::uint32_t stack[128];
-  int depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t i = stack[--depth];
-    const BoxNode& node = nodes_[i];
+  const auto may_meet = [&](const BoxNode& node) {
     const Vec3 offset = node.center - center, apart = max(offset, -offset) - (half + node.half);
-    if (apart.x > 0 || apart.y > 0 || apart.z > 0) continue;
-    if (!node.leaf()) {
-      stack[depth++] = node.right;
-      stack[depth++] = i + 1;
-      continue;
-    }
-    const Crossing found = crossing(node.face, from, frame);
-    if (!found.certain) return std::nullopt;
-    if (found.number == 0) continue;
-    if (std::fabs(found.height) <= margin || std::fabs(found.height - way) <= margin) return std::nullopt;
+    return apart.x <= 0 && apart.y <= 0 && apart.z <= 0;
+  };
+  int number = 0;
+  const bool certain = visit_faces(may_meet, [&](std::uint32_t face) {
+    const Crossing found = crossing(face, from, frame);
+    if (!found.certain) return false;
+    if (found.number == 0) return true;
+    if (std::fabs(found.height) <= margin || std::fabs(found.height - way) <= margin) return false;
     if (found.height > 0 && found.height < way) number += found.number;
-  }
+    return true;
+  });
+  if (!certain) return std::nullopt;
   return number;
 }
 

@@ -91,6 +91,10 @@ class AuditBody {
   std::uint32_t build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order,
                       const std::vector<Vec3>& centroids);
   void find_pieces();
+  /// Visits the faces of the leaves that may_meet(node) admits, below nodes that it admits, until visit(face) is false.
+  /// @return whether it never was
+  template <class MayMeet, class Visit>
+  bool visit_faces(const MayMeet& may_meet, const Visit& visit) const;
   /// The winding number of the surface about a point, by one ray; not certain where the ray passes too close to an
   /// edge.
   struct Winding {

@@ -62,8 +62,8 @@ class DepthSearch {
     double reach = 0;
     double size = 0;  ///< Of what they are near to: its radius and its movement.
   };
-  /// Nodes are looked for anew for what is smaller than this share of what they were found for: for what is hardly
-  /// smaller, nearly all of them are near, too.
+  /// A list of near nodes is computed again once box and movement have shrunk to this share of what it was made for.
+  /// Before that, nearly all of its nodes would stay in it.
   static constexpr double kSmaller = 0.7;
 
   /// The nodes of `solid` that may come within the limit of a node, not larger than it or leaves.

@@ -75,7 +75,7 @@ void PieceSearch::search(const TimeSlice& slice, const Triangle& triangle, const
   const SurfacePiece piece = make_piece(slice, triangle);
   faces_.clear();
   add_faces(box_of(piece), near.reach + piece.deviation, near.nodes);
-  // What is clear of the surface is outside if a point of it is.
+  // A piece that does not meet the surface is outside if one of its points is.
   if (faces_.empty() && solid_.outside_throughout(piece.center, piece.radius, near.reach, last_point_)) return;
   check(slice, triangle, {0, faces_.size(), near.reach});
 }
