@@ -94,8 +94,8 @@ void GuardedPairs::find_own_ghosts(const PairStates& states, const AssemblyTrian
     Pair pair{found.a, found.b, found.guard, {PairTest::Certified}};
     if (found.guard.guard == PairGuard::Depth) {
       pair.rule.test = PairTest::None;
-      shape(found.a);
-      shape(found.b);
+      solids_.at(found.a).shape = found.shapes[0];
+      solids_.at(found.b).shape = found.shapes[1];
     } else if (!found.ghosts[0].empty()) {
       const auto offset = [&](ComponentId c) {
         return static_cast<std::uint32_t>(ghosts_.displaced.size() - triangles.vertex_begin[c.value]);
@@ -153,7 +153,7 @@ std::vector<BlockingPair> GuardedPairs::too_deep(Span<const RigidTransform> star
     const bool a_moves = !(start[pair.a.value] == end[pair.a.value]);
     const ComponentId moving = a_moves ? pair.a : pair.b, fixed = a_moves ? pair.b : pair.a;
     const auto seen = [&](Span<const RigidTransform> at) { return inverse(at[fixed.value]) * at[moving.value]; };
-    const SweptPair swept{&solids_.at(moving).shape, &solids_.at(fixed).shape, seen(start), seen(end)};
+    const SweptPair swept{solids_.at(moving).shape.get(), solids_.at(fixed).shape.get(), seen(start), seen(end)};
     const double way = std::max(max_displacement(swept), tolerance_);
     const auto deep =
         first_deeper(swept, depth_limits(pair.guard, a_moves, tolerance_), kResolution * tolerance_ / way);
@@ -193,9 +193,9 @@ bool GuardedPairs::set_parted(Pair& pair, bool parted) {
 }
 
 const SolidShape& GuardedPairs::shape(ComponentId c) {
-  SolidShape& known = solids_.at(c).shape;
-  if (known.empty()) known = SolidShape(assembly_[c]);
-  return known;
+  std::shared_ptr<const SolidShape>& known = solids_.at(c).shape;
+  if (!known) known = std::make_shared<const SolidShape>(assembly_[c]);
+  return *known;
 }
 
 ComponentAt GuardedPairs::placed(ComponentId c, Span<const RigidTransform> state) {

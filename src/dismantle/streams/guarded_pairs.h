@@ -9,6 +9,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace dismantle {
@@ -58,7 +59,7 @@ class GuardedPairs {
   /// What is known of a component that touches or overlaps another one.
   struct Solid {
     SolidTree tree, ghost;
-    SolidShape shape;  ///< Empty until it is needed.
+    std::shared_ptr<const SolidShape> shape;  ///< Null until it is needed.
   };
 
   void make_usual_ghosts(const PairStates& states, const AssemblyTriangles& triangles, const CollisionOptions& options);

@@ -2,15 +2,18 @@
 #include "dismantle/surface/solid_shape.h"
 
 #include "dismantle/surface/depth/shallow_region.h"
+#include "dismantle/surface/depth/thin_places.h"
 
 #include <map>
 #include <mutex>
+#include <utility>
 
 namespace dismantle {
 
 struct SolidShape::Regions {
   std::mutex mutex;
-  std::map<double, std::unique_ptr<const ShallowRegion>> of_limit;
+  std::map<double, std::unique_ptr<const ThinPlaces>> thin_places;
+  std::map<std::pair<double, double>, std::unique_ptr<const ShallowRegion>> of_limits;
 };
 
 SolidShape::SolidShape() = default;
@@ -27,10 +30,23 @@ SolidShape::SolidShape(const Component& component, const Executor& executor) {
 }
 
 const ShallowRegion& SolidShape::shallow_region(double limit) const {
+  return far_region(limit, limit);
+}
+
+const ShallowRegion& SolidShape::far_region(double limit, double far_limit) const {
+  const SurfaceTree* thick = far_limit < limit ? thin_places(limit).thick_faces() : nullptr;
   const std::lock_guard lock(regions_->mutex);
-  std::unique_ptr<const ShallowRegion>& region = regions_->of_limit[limit];
-  if (!region) region = std::make_unique<const ShallowRegion>(*surface_, *winding_, limit);
+  std::unique_ptr<const ShallowRegion>& region = regions_->of_limits[{limit, far_limit}];
+  if (!region)
+    region = std::make_unique<const ShallowRegion>(*surface_, *winding_, far_limit, DeeperFaces{thick, limit});
   return *region;
+}
+
+const ThinPlaces& SolidShape::thin_places(double limit) const {
+  const std::lock_guard lock(regions_->mutex);
+  std::unique_ptr<const ThinPlaces>& places = regions_->thin_places[limit];
+  if (!places) places = std::make_unique<const ThinPlaces>(*this, limit);
+  return *places;
 }
 
 }  // namespace dismantle

@@ -12,6 +12,7 @@
 namespace dismantle {
 
 class ShallowRegion;
+class ThinPlaces;
 
 /// The surface of a component in the assembled state and its winding number, for queries about solids with faulty
 /// meshes. Immutable to all queries; may be shared between threads.
@@ -35,6 +36,10 @@ class SolidShape {
   const WindingNumber& winding() const { return *winding_; }
   /// Where no point is deeper than `limit` [mm]; kept, as it is refined where it is asked.
   const ShallowRegion& shallow_region(double limit) const;
+  /// Where no point is deeper than `far_limit`, or than `limit` next to a face that is not at a thin place [mm]; kept.
+  const ShallowRegion& far_region(double limit, double far_limit) const;
+  /// Where `limit` [mm] keeps nothing from passing through; kept.
+  const ThinPlaces& thin_places(double limit) const;
 
  private:
   struct Regions;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/certificates/ghosts/find_guards.h"
 
-#include "dismantle/surface/depth/nowhere_deeper.h"
+#include "dismantle/surface/depth/stays_whole.h"
+#include "dismantle/surface/depth/thin_places.h"
 #include "dismantle/surface/solid_distance.h"
 
 #include <algorithm>
@@ -15,6 +16,8 @@ namespace dismantle {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+/// Edges at the border of an overlap are divided down to this share of its depth.
+constexpr double kFinest = 1.0 / 16;
 /// Surfaces that are nearer than this share of the tolerance may touch, as far as rounding can tell.
 constexpr double kTouching = 1e-6;
 
@@ -23,16 +26,17 @@ class Shapes {
  public:
   explicit Shapes(const Assembly& assembly) : assembly_(assembly), shapes_(assembly.components.size()) {}
 
-  const SolidShape& of(ComponentId c) {
+  const SolidShape& of(ComponentId c) { return *shared(c); }
+  const std::shared_ptr<const SolidShape>& shared(ComponentId c) {
     Built& built = shapes_[c.value];
-    std::call_once(built.once, [&] { built.shape = SolidShape(assembly_[c]); });
+    std::call_once(built.once, [&] { built.shape = std::make_shared<const SolidShape>(assembly_[c]); });
     return built.shape;
   }
 
  private:
   struct Built {
     std::once_flag once;
-    SolidShape shape;
+    std::shared_ptr<const SolidShape> shape;
   };
   const Assembly& assembly_;
   std::vector<Built> shapes_;
@@ -40,7 +44,7 @@ class Shapes {
 
 /// The guard of a pair for which ghosts were searched; nothing where it needs none.
 std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance) {
-  FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, {}, kGhostLength * tolerance}, {}};
+  FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, {}, {}, kGhostLength * tolerance}, {}, {}};
   GuardedPair& guard = result.guard;
   // Thin parts and sheets may have passed the other component by less than their allowance.
   guard.parting = (found && found->retracted ? kApartShare : 1) * tolerance;
@@ -56,13 +60,27 @@ std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<Pair
   return result;
 }
 
-/// Where a solid is nowhere as deep as the pair may get, limits the depth of points that do not overlap it.
-/// @param far_allowed their depth [mm]
-void limit_far_points(GuardedPair& guard, const SolidShape& a, const SolidShape& b, double far_allowed,
+/// One of two components whose depth is bounded.
+struct BoundedSide {
+  const SolidTree& tree;
+  const SolidShape& shape;
+};
+
+/// Where the depth of a pair does not keep points from passing through a solid, limits that of those that do not
+/// overlap it. @param far_allowed their depth [mm] @param depth of the pair [mm]
+void limit_far_points(GuardedPair& guard, const BoundedSide& a, const BoundedSide& b, double far_allowed, double depth,
                       double tolerance) {
   const double limit = guard.allowed - kArcShare * tolerance;
-  guard.far_allowed = {is_nowhere_deeper(b, limit) ? far_allowed : kUnlimited,
-                       is_nowhere_deeper(a, limit) ? far_allowed : kUnlimited};
+  const auto limit_in = [&](const BoundedSide& outer, const BoundedSide& inner, std::size_t of_inner) {
+    const ThinPlaces& thin = outer.shape.thin_places(limit);
+    const bool is_limit = thin.everywhere() || (!thin.none() && far_allowed < guard.allowed);
+    guard.far_allowed[of_inner] = is_limit ? far_allowed : kUnlimited;
+    if (!is_limit) return;
+    const double finest = std::max(tolerance, kFinest * depth);
+    guard.hole_for[of_inner] = stays_whole(outer.tree.vertices, outer.tree.faces, inner.shape, finest);
+  };
+  limit_in(b, a, 0);
+  limit_in(a, b, 1);
 }
 
 }  // namespace
@@ -70,7 +88,10 @@ void limit_far_points(GuardedPair& guard, const SolidShape& a, const SolidShape&
 DepthLimits depth_limits(const GuardedPair& pair, bool a_first, double tolerance) {
   const double arcs = kArcShare * tolerance;
   const double of_first = pair.far_allowed[0] - arcs, of_second = pair.far_allowed[1] - arcs;
-  return {pair.allowed - arcs, a_first ? of_first : of_second, a_first ? of_second : of_first};
+  const auto in_order = [&](const auto& two) { return a_first ? two : std::array{two[1], two[0]}; };
+  const auto far = in_order(std::array{of_first, of_second});
+  const auto hole = in_order(pair.hole_for);
+  return {pair.allowed - arcs, far[0], far[1], hole[0], hole[1]};
 }
 
 std::vector<FoundGuard> find_guards(const GuardSearch& search) {
@@ -88,7 +109,7 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
   search.executor.for_each_heavy(pairs.size(), [&](std::size_t i) {
     const ComponentPair& pair = pairs[i];
     if (pair.state == PairState::Free) {
-      guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited, {}, 0, tolerance}, {}};
+      guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited, {}, {}, 0, tolerance}, {}, {}};
       return;
     }
     const bool solids = trees(pair.a).solid->has_outside && trees(pair.b).solid->has_outside;
@@ -106,7 +127,9 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
     if (!guards[i] || guards[i]->guard.guard != PairGuard::Depth) return;
     FoundGuard& found = *guards[i];
     const double far_allowed = pair.declared > 0 ? found.guard.allowed : tolerance;
-    limit_far_points(found.guard, shapes.of(pair.a), shapes.of(pair.b), far_allowed, tolerance);
+    const BoundedSide a{*trees(pair.a).solid, shapes.of(pair.a)}, b{*trees(pair.b).solid, shapes.of(pair.b)};
+    limit_far_points(found.guard, a, b, far_allowed, pair.depth, tolerance);
+    found.shapes = {shapes.shared(pair.a), shapes.shared(pair.b)};
   });
   std::vector<FoundGuard> found;
   for (std::optional<FoundGuard>& guard : guards)

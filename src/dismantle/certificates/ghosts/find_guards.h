@@ -10,6 +10,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace dismantle {
@@ -27,6 +28,8 @@ struct GuardedPair {
   double allowed = 0;                   ///< Depth allowed until then [mm]; infinite without a guard.
   /// As DepthLimits::far_a and far_b, without the share of arcs; with PairGuard::Depth only [mm].
   std::array<double, 2> far_allowed{};
+  /// As DepthLimits::hole_for_a and hole_for_b.
+  std::array<bool, 2> hole_for{};
   double displaced = 0;  ///< Largest displacement of their own ghosts [mm].
   double parting = 0;    ///< They have been apart where they are further apart than this [mm].
   bool parted = false;   ///< They have been apart: they are treated like any other pair.
@@ -56,6 +59,7 @@ struct FoundGuard {
   GuardedPair guard;  ///< Not parted.
   /// Displaced vertices of `a` and `b` where they have ghosts of their own [mm, assembled]; else both are empty.
   std::array<std::vector<Vec3>, 2> ghosts;
+  std::array<std::shared_ptr<const SolidShape>, 2> shapes;  ///< Of `a` and `b` with PairGuard::Depth; else null.
 };
 
 /// The components whose guards are wanted.

@@ -17,15 +17,15 @@ void CertificateSweeper::prepare_ghosts(const PairStates& pairs) {
   for (const FoundGuard& found : guards) {
     guarded_[{found.a, found.b}] = found.guard;
     if (found.guard.guard != PairGuard::Depth) continue;
-    shape(found.a);
-    shape(found.b);
+    shapes_[found.a] = found.shapes[0];
+    shapes_[found.b] = found.shapes[1];
   }
 }
 
 GuardedPair CertificateSweeper::guarded(ComponentId a, ComponentId b) const {
   const auto found = guarded_.find(std::minmax(a, b));
   if (found != guarded_.end() && !found->second.parted) return found->second;
-  GuardedPair usual{PairGuard::Ghosts, tolerance_, {}, kGhostLength * tolerance_};
+  GuardedPair usual{PairGuard::Ghosts, tolerance_, {}, {}, kGhostLength * tolerance_};
   usual.parted = found != guarded_.end();
   return usual;
 }

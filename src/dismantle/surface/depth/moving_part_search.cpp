@@ -22,6 +22,8 @@ constexpr int kMaxCopyFaces = 1000;
 constexpr double kAlong = 0.05;
 /// Two directions are tried as one where the cosine between them is above this.
 constexpr double kSameDirection = 1 - 1e-9;
+/// A way is parallel to a face where it gets nearer to its plane by no more than this share of its length.
+constexpr double kParallel = 1e-9;
 /// Two faces are in one plane where the cosine between their normals is this near to 1, and they are off each other's
 /// plane by no more than this share of the limit.
 constexpr double kSamePlane = 1e-6, kSamePlaneOffset = 1e-3;
@@ -30,8 +32,14 @@ Triangle mean(const Triangle& s, const Triangle& t) {
   return {{(s[0] + t[0]) / 2, (s[1] + t[1]) / 2, (s[2] + t[2]) / 2}};
 }
 
-/// True if a hull is certainly further than `gap` from a surface.
-bool clear_of(const SurfaceTree& surface, const PartHull& hull, double gap) {
+std::array<Vec3, 6> corners_of(const MovingPart& part) {
+  return {part.begin[0], part.begin[1], part.begin[2], part.end[0], part.end[1], part.end[2]};
+}
+
+/// True if a hull is certainly further than `gap` from the faces of a surface, apart from those that `passes` may not
+/// cross: those parallel to it. Null for all faces.
+bool clear_of(const SurfaceTree& surface, const PartHull& hull, double gap, Vec3 passes = {}) {
+  const bool is_way = length_squared(passes) > 0;
   const Bvh& bvh = surface.bvh();
   int seen = 0;
   std::vector<NodeIndex> nodes{bvh.root()};
@@ -45,7 +53,9 @@ bool clear_of(const SurfaceTree& surface, const PartHull& hull, double gap) {
       nodes.push_back(children.right);
       continue;
     }
-    if (++seen > kMaxCopyFaces || !hull.apart(surface.triangle(bvh.leaf_triangle[node]), gap)) return false;
+    const Triangle& face = surface.triangle(bvh.leaf_triangle[node]);
+    if (is_way && std::abs(dot(normalized(normal_unscaled(face)), passes)) <= kParallel * length(passes)) continue;
+    if (++seen > kMaxCopyFaces || !hull.apart(face, gap)) return false;
   }
   return true;
 }
@@ -57,19 +67,26 @@ bool MovingPartSearch::is_deep(Vec3 own, Vec3 point) const {
 }
 
 bool MovingPartSearch::is_deep(Vec3 own, Vec3 point, double distance) const {
-  if (distance <= far_limit_) return false;
-  if (distance <= limit_ && solid_.surface().distance(own).distance <= limit_) return false;
+  if (distance <= rule_.far_limit) return false;
+  if (distance <= rule_.limit) {
+    const SurfaceTree* thick = rule_.thick_faces();
+    if (thick && thick->distance(point, 0, rule_.limit).distance <= rule_.limit) return false;
+    if (solid_.surface().distance(own).distance <= rule_.limit) return false;
+    const SolidShape* hole = rule_.hole;
+    if (hole && (hole->surface().distance(point).distance <= rule_.far_limit || hole->winding().inside(point)))
+      return false;
+  }
   return solid_.winding().inside(point);
 }
 
-bool MovingPartSearch::is_unlimited(const MovingPart& part) const {
-  if (far_limit_ == limit_) return false;
+/// True if no point of a part is far in the assembled state.
+bool MovingPartSearch::is_near(const MovingPart& part) const {
   const Vec3 center = (part.own[0] + part.own[1] + part.own[2]) / 3;
   double radius = 0;
   for (int i = 0; i < 3; ++i) radius = std::max(radius, length(part.own[i] - center));
   const MeshDistance nearest = solid_.surface().distance(center);
-  if (nearest.distance + radius <= limit_) return true;
-  const auto near = [&](Vec3 p) { return solid_.surface().distance_to_face(p, nearest.face) <= limit_; };
+  if (nearest.distance + radius <= rule_.limit) return true;
+  const auto near = [&](Vec3 p) { return solid_.surface().distance_to_face(p, nearest.face) <= rule_.limit; };
   if (std::all_of(part.own.corner, part.own.corner + 3, near)) return true;
   return nearest.distance > radius && solid_.winding().inside(center);  // inside, no point is further from the surface
 }
@@ -95,7 +112,8 @@ MovingPartSearch::Ball MovingPartSearch::ball_around(const MovingPart& part) {
 MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::size_t& pieces, std::size_t max_pieces,
                                                 std::vector<ShallowPart>* shallow) const {
   std::vector<MovingPart> parts{whole};
-  std::uint32_t last = 0;
+  parts[0].was_near = rule_.thin && is_near(whole);
+  NearestFaces last;
   const auto note = [&](const MovingPart& part, const ShallowProof& proof) {
     if (shallow) shallow->push_back({part.own, part.from, part.to, proof});
   };
@@ -104,25 +122,29 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
       for (const MovingPart& left : parts) note(left, {ShallowReason::Unknown});
       return {{}, false};
     }
-    const MovingPart part = parts.back();
+    MovingPart part = parts.back();
     parts.pop_back();
-    if (region_ && region_->contains(PartHull(part))) {
-      note(part, {ShallowReason::Region});
+    ShallowProof proof;
+    proof.larger = part.was_near ? LargerLimit::WasNear : LargerLimit::No;
+    if (in_region(part, proof.larger)) {
+      proof.reason = ShallowReason::Region;
+      note(part, proof);
       continue;
     }
     const Ball ball = ball_around(part);
-    const MeshDistance nearest = solid_.surface().distance(ball.center, last);
-    last = nearest.face;
-    if (const std::optional<ShallowProof> proof = shallow_proof(part, ball, nearest)) {
-      note(part, *proof);
+    const MeshDistance nearest = solid_.surface().distance(ball.center, last.of_solid);
+    last.of_solid = nearest.face;
+    if (find_proof(part, ball, nearest, last, proof)) {
+      note(part, proof);
       continue;
     }
+    part.was_near = proof.larger == LargerLimit::WasNear;
     const double time = (part.from + part.to) / 2;
     const Vec3 own = (part.own[0] + part.own[1] + part.own[2]) / 3;
     if (is_deep(own, ball.center, nearest.distance)) return {TimedPoint{time, part.face, own}, true};
     for (int i = 0; i < 3; ++i) {
       const Vec3 corner = ball.middle[i];
-      if (nearest.distance + length(corner - ball.center) <= far_limit_) continue;
+      if (nearest.distance + length(corner - ball.center) <= rule_.far_limit) continue;
       const double distance = solid_.surface().distance(corner, nearest.face).distance;
       if (is_deep(part.own[i], corner, distance)) return {TimedPoint{time, part.face, part.own[i]}, true};
     }
@@ -131,53 +153,128 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
   return {};
 }
 
-/// Why no point of a part gets too deep, if that is certain.
-std::optional<ShallowProof> MovingPartSearch::shallow_proof(const MovingPart& part, const Ball& ball,
-                                                            const MeshDistance& nearest) const {
-  ShallowProof proof{ShallowReason::NearFaces, nearest.face};
+/// True if a part stays in the region of its points.
+bool MovingPartSearch::in_region(const MovingPart& part, LargerLimit larger) const {
+  if (larger != LargerLimit::No && rule_.thin->everywhere()) return true;
+  const ShallowRegion* region = larger == LargerLimit::No ? rule_.region : rule_.wider_region;
+  return region && region->contains(PartHull(part));
+}
+
+/// True if a part stays in the hole. @param face of the hole, the one nearest to its middle
+bool MovingPartSearch::in_hole(const MovingPart& part, const Ball& ball, std::uint32_t face) const {
+  const SurfaceTree& surface = rule_.hole->surface();
+  const std::array<Vec3, 6> corners = corners_of(part);
+  if (near_two_faces(surface, Span<const Vec3>(corners.data(), corners.size()), face, rule_.far_limit)) return true;
+  const WindingNumber& winding = rule_.hole->winding();
+  if (!winding.closed()) return false;
+  // A copy that is inside is no further than its shift.
+  const double gap = winding.placement();
+  const Vec3 inwards = -normalized(normal_unscaled(surface.triangle(face)));
+  for (const Vec3 shift : {Vec3{}, std::max(0.0, rule_.far_limit - 4 * gap) * inwards})
+    if (winding.inside(ball.center + shift) && clear_of(surface, PartHull(part, Span<const Vec3>(&shift, 1)), gap))
+      return true;
+  return false;
+}
+
+/// Finds out if far points of a part may get as deep as others, and why.
+void MovingPartSearch::find_larger(const MovingPart& part, const Ball& ball, NearestFaces& last,
+                                   ShallowProof& proof) const {
+  if (is_near(part)) {
+    proof.larger = LargerLimit::WasNear;
+  } else if (rule_.hole) {
+    proof.hole_face = last.of_hole = rule_.hole->surface().distance(ball.center, last.of_hole).face;
+    if (in_hole(part, ball, proof.hole_face)) proof.larger = LargerLimit::InHole;
+  }
+}
+
+/// Finds out why no point of a part gets too deep, other than by its region. @return false if that is not certain
+/// @param proof with the limit, as far as it is known
+bool MovingPartSearch::find_proof(const MovingPart& part, const Ball& ball, const MeshDistance& nearest,
+                                  NearestFaces& last, ShallowProof& proof) const {
   // The simple reasons first: winding numbers of open meshes are expensive.
-  if (nearest.distance + ball.radius + ball.way <= far_limit_ || near_faces(part, nearest.face)) return proof;
+  const auto near_by_limit = [&] {
+    proof.reason = ShallowReason::NearFaces;
+    proof.face = nearest.face;
+    const double limit = proof.larger == LargerLimit::No ? rule_.far_limit : rule_.limit;
+    return near_faces(part, ball, nearest.face, nearest.distance, limit);
+  };
+  if (near_by_limit()) return true;
+  const SurfaceTree* thick = rule_.thick_faces();
+  if (thick && proof.larger == LargerLimit::No && nearest.distance <= rule_.limit) {
+    const MeshDistance nearest_thick = thick->distance(ball.center, last.of_thick, rule_.limit);
+    proof.reason = ShallowReason::ThickFaces;
+    proof.face = last.of_thick = nearest_thick.face;
+    if (nearest_thick.distance <= rule_.limit && near_thick_faces(part, proof.face)) return true;
+  }
   proof.reason = ShallowReason::Ball;
-  if (ball_outside(solid_.winding(), ball.center, ball.radius + ball.way, nearest.distance)) return proof;
-  proof.reason = ShallowReason::Unlimited;
-  if (is_unlimited(part)) return proof;
+  proof.face = nearest.face;
+  if (ball_outside(solid_.winding(), ball.center, ball.radius + ball.way, nearest.distance)) return true;
+  if (rule_.thin && proof.larger == LargerLimit::No) {
+    find_larger(part, ball, last, proof);
+    if (proof.larger != LargerLimit::No) {
+      proof.reason = ShallowReason::Region;
+      if (in_region(part, proof.larger) || near_by_limit()) return true;
+    }
+  }
+  const std::optional<Vec3> shift = copy_outside(part, ball.center, ball.radius + ball.way, nearest.face, proof.larger);
+  if (!shift) return false;
   proof.reason = ShallowReason::Copy;
-  const std::optional<Vec3> shift = copy_outside(part, ball.center, ball.radius + ball.way, nearest.face);
-  if (!shift) return std::nullopt;
   proof.shift = *shift;
-  return proof;
+  return true;
 }
 
 bool MovingPartSearch::holds(const ShallowProof& known, const MovingPart& part) const {
-  if (known.reason == ShallowReason::Unlimited) return true;  // does not depend on the motion
-  if (known.reason == ShallowReason::Unknown) return false;
-  if (known.reason == ShallowReason::Region) return region_ && region_->contains(PartHull(part));
   const Ball ball = ball_around(part);
   const double radius = ball.radius + ball.way;
-  if (known.reason == ShallowReason::NearFaces)
-    return solid_.surface().distance_to_face(ball.center, known.face) + radius <= far_limit_ ||
-           near_faces(part, known.face);
-  if (known.reason == ShallowReason::Copy) return is_outside(part, ball.center, radius, known.shift);
-  return ball_outside(solid_.winding(), ball.center, radius,
-                      solid_.surface().distance(ball.center, known.face).distance);
+  // What was near does not depend on the motion.
+  if (known.larger == LargerLimit::InHole && !in_hole(part, ball, known.hole_face)) return false;
+  switch (known.reason) {
+    case ShallowReason::Unknown:
+      return false;
+    case ShallowReason::Region:
+      return in_region(part, known.larger);
+    case ShallowReason::NearFaces: {
+      const double distance = solid_.surface().distance_to_face(ball.center, known.face);
+      const double limit = known.larger == LargerLimit::No ? rule_.far_limit : rule_.limit;
+      return near_faces(part, ball, known.face, distance, limit);
+    }
+    case ShallowReason::ThickFaces:
+      return near_thick_faces(part, known.face);
+    case ShallowReason::Copy:
+      return is_outside(part, ball.center, radius, known.shift, known.larger);
+    case ShallowReason::Ball:
+      return ball_outside(solid_.winding(), ball.center, radius,
+                          solid_.surface().distance(ball.center, known.face).distance);
+  }
+  return false;
 }
 
-/// True if a part stays within the limit of the face that is nearest to its middle, or of another one.
-bool MovingPartSearch::near_faces(const MovingPart& part, std::uint32_t nearest) const {
-  Vec3 corners[6];
-  for (int i = 0; i < 3; ++i) corners[i] = part.begin[i], corners[3 + i] = part.end[i];
-  return near_two_faces(solid_.surface(), Span<const Vec3>(corners, 6), nearest, far_limit_);
+/// True if a part stays within a limit of the face that is nearest to its middle, or of another one.
+/// @param distance of the middle from that face
+bool MovingPartSearch::near_faces(const MovingPart& part, const Ball& ball, std::uint32_t nearest, double distance,
+                                  double limit) const {
+  if (distance + ball.radius + ball.way <= limit) return true;
+  const std::array<Vec3, 6> corners = corners_of(part);
+  return near_two_faces(solid_.surface(), Span<const Vec3>(corners.data(), corners.size()), nearest, limit);
 }
 
-/// The shift of a copy of a part, by no more than the limit, that is outside: on the way there, a point that is
+/// The same of the faces that are not at a thin place. @param nearest its number among them
+bool MovingPartSearch::near_thick_faces(const MovingPart& part, std::uint32_t nearest) const {
+  const std::array<Vec3, 6> corners = corners_of(part);
+  return near_two_faces(*rule_.thick_faces(), Span<const Vec3>(corners.data(), corners.size()), nearest, rule_.limit);
+}
+
+/// The shift of a copy of a part, by no more than its limit, that is outside: on the way there, a point that is
 /// inside passes the surface, unless it passes a fan that closes a hole.
 /// @param center, radius a ball around the part, the center half-way
 std::optional<Vec3> MovingPartSearch::copy_outside(const MovingPart& part, Vec3 center, double radius,
-                                                   std::uint32_t nearest) const {
+                                                   std::uint32_t nearest, LargerLimit larger) const {
   const double margin = 4 * solid_.winding().placement();
-  if (far_limit_ <= margin) return std::nullopt;
+  const bool is_far = larger == LargerLimit::No && !rule_.thick_faces();
+  const double limit = is_far ? rule_.far_limit : rule_.limit;
+  if (limit <= margin) return std::nullopt;
   const bool inside = solid_.winding().inside(center);
-  if (!inside && is_outside(part, center, radius, {})) return Vec3{};
+  if (!inside && is_outside(part, center, radius, {}, larger)) return Vec3{};
   const Triangle& face = solid_.surface().triangle(nearest);
   const Vec3 way = closest_point_of_triangle(face, center) - center;
   const Vec3 out = normalized(inside ? way : -way);
@@ -188,18 +285,23 @@ std::optional<Vec3> MovingPartSearch::copy_outside(const MovingPart& part, Vec3 
   for (int i = 0; i < 4; ++i) {
     const auto same = [&](const Vec3& known) { return dot(known, directions[i]) > kSameDirection; };
     if (std::any_of(directions, directions + i, same)) continue;
-    const Vec3 shift = (far_limit_ - margin) * directions[i];
-    if (is_outside(part, center, radius, shift)) return shift;
+    const Vec3 shift = (limit - margin) * directions[i];
+    if (is_outside(part, center, radius, shift, larger)) return shift;
   }
   return std::nullopt;
 }
 
-/// True if a part that is shifted is outside, and passes no fan on the way.
-bool MovingPartSearch::is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift) const {
+/// True if a part that is shifted is outside, and passes no fan on the way, nor a face at a thin place if it may be
+/// far.
+bool MovingPartSearch::is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift,
+                                  LargerLimit larger) const {
   const WindingNumber& winding = solid_.winding();
   const Vec3 shifts[] = {shift, {}};
   const double gap = winding.placement();
   if (!clear_of(solid_.surface(), PartHull(part, Span<const Vec3>(shifts, 1)), gap)) return false;
+  if (rule_.thick_faces() && larger == LargerLimit::No &&
+      !clear_of(*rule_.thin->thin_faces(), PartHull(part, Span<const Vec3>(shifts, 2)), gap, shift))
+    return false;
   if (winding.closed()) return !winding.inside(center + shift);
   return clear_of(*winding.fans(), PartHull(part, Span<const Vec3>(shifts, 2)), gap) &&
          holes_do_not_matter(winding, center + shift, radius + length(shift));
@@ -243,7 +345,7 @@ bool MovingPartSearch::in_one_plane(std::uint32_t face, std::uint32_t other) con
   const Triangle &a = solid_.surface().triangle(face), &b = solid_.surface().triangle(other);
   const Vec3 normal = normalized(normal_unscaled(a));
   return std::abs(dot(normal, normalized(normal_unscaled(b)))) > 1 - kSamePlane &&
-         std::abs(dot(normal, a[0] - b[0])) < kSamePlaneOffset * limit_;
+         std::abs(dot(normal, a[0] - b[0])) < kSamePlaneOffset * rule_.limit;
 }
 
 bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, int& edge, double& share) const {
@@ -273,7 +375,7 @@ bool MovingPartSearch::find_ridge(const Triangle& part, std::uint32_t nearest, i
 bool stays_shallow(const SolidShape& solid, const Triangle& from, const Triangle& to, double limit, std::size_t& pieces,
                    std::size_t max_pieces) {
   const MovingPartSearch::Result result =
-      MovingPartSearch(solid, limit, limit, nullptr).find({from, from, to}, pieces, max_pieces);
+      MovingPartSearch(solid, {limit, limit}).find({from, from, to}, pieces, max_pieces);
   return result.complete && !result.found;
 }
 

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "dismantle/core/keep_going.h"
+#include "dismantle/surface/depth/depth_rule.h"
 #include "dismantle/surface/depth/part_hull.h"
 #include "dismantle/surface/depth/shallow_parts.h"
-#include "dismantle/surface/depth/shallow_region.h"
-#include "dismantle/surface/solid_shape.h"
 
 #include <cstddef>
 #include <optional>
@@ -17,14 +16,9 @@ namespace dismantle {
 /// first_deeper().
 class MovingPartSearch {
  public:
-  /// @param solid must outlive this @param limit of the depth [mm] @param far_limit of points that are further from
-  /// the surface of the solid than `limit` where their own coordinates are taken as its [mm]; less than `limit` only
-  /// where no point of the solid is deeper than that @param region where no point is deeper than the far limit; must
-  /// outlive this, or null, where there is little to search
-  /// @param keep_going once it returns false, searches are given up; may be empty
-  MovingPartSearch(const SolidShape& solid, double limit, double far_limit, const ShallowRegion* region,
-                   const KeepGoing& keep_going = {})
-      : solid_(solid), limit_(limit), far_limit_(far_limit), region_(region), keep_going_(keep_going) {}
+  /// @param solid must outlive this @param keep_going once it returns false, searches are given up; may be empty
+  MovingPartSearch(const SolidShape& solid, const DepthRule& rule, const KeepGoing& keep_going = {})
+      : solid_(solid), rule_(rule), keep_going_(keep_going) {}
 
   /// The outcome of a search.
   struct Result {
@@ -49,21 +43,27 @@ class MovingPartSearch {
  private:
   struct Ball;
   static Ball ball_around(const MovingPart& part);
-  std::optional<ShallowProof> shallow_proof(const MovingPart& part, const Ball& ball,
-                                            const MeshDistance& nearest) const;
-  /// True if no point of a part is far, and near ones may be at any depth that the solid has.
-  bool is_unlimited(const MovingPart& part) const;
-  bool near_faces(const MovingPart& part, std::uint32_t nearest) const;
-  std::optional<Vec3> copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest) const;
-  bool is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift) const;
+  /// Faces from which the next searches start.
+  struct NearestFaces {
+    std::uint32_t of_solid = 0, of_thick = 0, of_hole = 0;
+  };
+  bool in_region(const MovingPart& part, LargerLimit larger) const;
+  bool in_hole(const MovingPart& part, const Ball& ball, std::uint32_t face) const;
+  void find_larger(const MovingPart& part, const Ball& ball, NearestFaces& last, ShallowProof& proof) const;
+  bool find_proof(const MovingPart& part, const Ball& ball, const MeshDistance& nearest, NearestFaces& last,
+                  ShallowProof& proof) const;
+  bool is_near(const MovingPart& part) const;
+  bool near_faces(const MovingPart& part, const Ball& ball, std::uint32_t nearest, double distance, double limit) const;
+  bool near_thick_faces(const MovingPart& part, std::uint32_t nearest) const;
+  std::optional<Vec3> copy_outside(const MovingPart& part, Vec3 center, double radius, std::uint32_t nearest,
+                                   LargerLimit larger) const;
+  bool is_outside(const MovingPart& part, Vec3 center, double radius, Vec3 shift, LargerLimit larger) const;
   void divide(const MovingPart& part, std::uint32_t nearest, std::vector<MovingPart>& parts) const;
   bool in_one_plane(std::uint32_t face, std::uint32_t other) const;
   bool find_ridge(const Triangle& part, std::uint32_t nearest, int& edge, double& share) const;
 
   const SolidShape& solid_;
-  double limit_;
-  double far_limit_;
-  const ShallowRegion* region_;
+  DepthRule rule_;
   KeepGoing keep_going_;
 };
 

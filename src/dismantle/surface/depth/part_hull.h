@@ -19,6 +19,7 @@ struct MovingPart {
   double to = 1;           ///< The time at the end.
   std::uint32_t face = 0;  ///< The face that it is a part of.
   bool at_ridge = false;   ///< It was divided where two faces of the solid are as near.
+  bool was_near = false;   ///< None of its points is far (DepthLimits).
 };
 
 /// The hull of all places of a moving part.

@@ -14,19 +14,28 @@ namespace dismantle {
 
 /// Why no point of a part of a face gets too deep (MovingPartSearch).
 enum class ShallowReason : std::uint8_t {
-  Region,     ///< It stays in the solid's shallow region.
-  NearFaces,  ///< It stays within the limit of one face of the solid, or of that and another one.
-  Ball,       ///< A ball around it is outside.
-  Unlimited,  ///< Its points are so near in the assembled state that they have no limit.
-  Copy,       ///< A shifted copy of it is outside.
-  Unknown,    ///< The search ended before it was examined.
+  Region,      ///< It stays in the solid's shallow region, be it all of space.
+  NearFaces,   ///< It stays within the limit of one face of the solid, or of that and another one.
+  ThickFaces,  ///< The same of faces that are not at a thin place, and their limit.
+  Ball,        ///< A ball around it is outside.
+  Copy,        ///< A shifted copy of it is outside.
+  Unknown,     ///< The search ended before it was examined.
+};
+
+/// Why far points of a part may get as deep as others (DepthRule).
+enum class LargerLimit : std::uint8_t {
+  No,       ///< They may not.
+  WasNear,  ///< There are none: its points were near in the assembled state.
+  InHole,   ///< It stays in the hole.
 };
 
 /// A reason, and what it refers to.
 struct ShallowProof {
-  ShallowReason reason{};  ///< See there.
-  std::uint32_t face = 0;  ///< Of the solid; for NearFaces and Ball.
-  Vec3 shift{};            ///< Of the copy [mm, frame of the solid].
+  ShallowReason reason{};       ///< See there.
+  LargerLimit larger{};         ///< The limit that Region, NearFaces and Copy refer to.
+  std::uint32_t face = 0;       ///< Of the solid; for NearFaces, ThickFaces and Ball.
+  std::uint32_t hole_face = 0;  ///< Of the hole; for InHole.
+  Vec3 shift{};                 ///< Of the copy [mm, frame of the solid].
 };
 
 /// A part of a face during a part of a motion in which it stayed shallow.

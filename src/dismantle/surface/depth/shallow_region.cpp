@@ -53,8 +53,9 @@ struct ShallowRegion::Query {
   }
 };
 
-ShallowRegion::ShallowRegion(const SurfaceTree& surface, const WindingNumber& winding, double limit)
-    : surface_(surface), winding_(winding), limit_(limit), center_(surface.bounds().center()) {
+ShallowRegion::ShallowRegion(const SurfaceTree& surface, const WindingNumber& winding, double limit,
+                             const DeeperFaces& deeper)
+    : surface_(surface), winding_(winding), limit_(limit), deeper_(deeper), center_(surface.bounds().center()) {
   // Around a solid with holes, points near it may be inside by their winding number.
   half_ = (winding.closed() ? 0.5 : 1) * longest(surface.bounds().size()) + 2 * winding.placement();
   smallest_ = std::max(kSmallestOfLimit * limit, kSmallestOfRoot * half_);
@@ -107,10 +108,19 @@ ShallowRegion::State ShallowRegion::examine(Vec3 center, double half) const {
   if (nearest.distance + radius <= limit_) return State::Shallow;
   Vec3 corners[kCorners];
   for (unsigned i = 0; i < kCorners; ++i) corners[i] = corner_of(center, half, i);
-  if (near_two_faces(surface_, Span<const Vec3>(corners, kCorners), nearest.face, limit_)) return State::Shallow;
+  const Span<const Vec3> hull(corners, kCorners);
+  if (near_two_faces(surface_, hull, nearest.face, limit_)) return State::Shallow;
+  bool may_be_deeper = false;
+  if (deeper_.faces && nearest.distance - radius <= deeper_.limit) {
+    const MeshDistance deeper = deeper_.faces->distance(center, 0, deeper_.limit + radius);
+    if (deeper.distance + radius <= deeper_.limit || near_two_faces(*deeper_.faces, hull, deeper.face, deeper_.limit))
+      return State::Shallow;
+    may_be_deeper = deeper.distance - radius <= deeper_.limit;
+  }
   if (nearest.distance <= radius) return State::Mixed;
   if (ball_outside(winding_, center, radius, nearest.distance)) return State::Shallow;
-  return nearest.distance - radius > limit_ && winding_.inside(center) ? State::Deep : State::Mixed;
+  const bool is_beyond = nearest.distance - radius > limit_ && !may_be_deeper;
+  return is_beyond && winding_.inside(center) ? State::Deep : State::Mixed;
 }
 
 }  // namespace dismantle

@@ -16,14 +16,21 @@ bool ball_outside(const WindingNumber& winding, Vec3 center, double radius, doub
 /// inside of any point of the ball. @pre the ball meets neither the mesh nor a fan
 bool holes_do_not_matter(const WindingNumber& winding, Vec3 center, double radius);
 
-/// The points that are outside a solid, or inside it but no deeper than a limit: an octree whose cells are examined
-/// when they are first asked for, and kept (as in the adaptively sampled distance fields of Frisken et al. 2000, with
-/// bounds instead of interpolation). What it answers does not depend on what was asked before; may be shared between
-/// threads.
+/// Faces of a surface next to which points may be deeper than elsewhere.
+struct DeeperFaces {
+  const SurfaceTree* faces = nullptr;  ///< Null for none.
+  double limit = 0;                    ///< Of the distance from them [mm].
+};
+
+/// The points that are outside a solid, or inside it but no deeper than a limit, or a larger one next to some of its
+/// faces: an octree whose cells are examined when they are first asked for, and kept (as in the adaptively sampled
+/// distance fields of Frisken et al. 2000, with bounds instead of interpolation). What it answers does not depend on
+/// what was asked before; may be shared between threads.
 class ShallowRegion {
  public:
-  /// @param surface, winding of the solid; must outlive this @param limit of the depth [mm]
-  ShallowRegion(const SurfaceTree& surface, const WindingNumber& winding, double limit);
+  /// @param surface, winding of the solid; must outlive this @param limit of the depth [mm] @param deeper
+  /// faces of the surface
+  ShallowRegion(const SurfaceTree& surface, const WindingNumber& winding, double limit, const DeeperFaces& deeper = {});
   ShallowRegion(const ShallowRegion&) = delete;
   ShallowRegion& operator=(const ShallowRegion&) = delete;
   ~ShallowRegion();
@@ -54,6 +61,7 @@ class ShallowRegion {
   const SurfaceTree& surface_;
   const WindingNumber& winding_;
   double limit_;
+  DeeperFaces deeper_;
   Vec3 center_;
   double half_ = 0;      // of the root's edges [mm]
   double smallest_ = 0;  // the same of the smallest cells

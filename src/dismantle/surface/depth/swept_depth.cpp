@@ -29,9 +29,12 @@ class PairSearch {
  public:
   PairSearch(const SweptPair& pair, const DepthLimits& limits, double resolution, std::size_t max_pieces,
              const KeepGoing& keep_going)
-      : searches_{{*pair.a, *pair.b, pair.start, pair.end, limits, limits.far_a, pair.known_a, keep_going},
-                  {*pair.b, *pair.a, inverse(pair.start), inverse(pair.end), limits, limits.far_b, pair.known_b,
-                   keep_going}},
+      : searches_{{*pair.a, *pair.b, pair.start, pair.end,
+                   DepthRule::of(*pair.b, limits.limit, limits.far_a, limits.hole_for_a ? pair.a : nullptr),
+                   limits.far_a != limits.limit, pair.known_a, keep_going},
+                  {*pair.b, *pair.a, inverse(pair.start), inverse(pair.end),
+                   DepthRule::of(*pair.a, limits.limit, limits.far_b, limits.hole_for_b ? pair.b : nullptr),
+                   limits.far_b != limits.limit, pair.known_b, keep_going}},
         resolution_(resolution),
         back_(resolution),
         until_(pair.until),

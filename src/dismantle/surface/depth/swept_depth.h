@@ -2,11 +2,11 @@
 #pragma once
 
 #include "dismantle/core/keep_going.h"
+#include "dismantle/surface/depth/depth_rule.h"
 #include "dismantle/surface/depth/shallow_parts.h"
 #include "dismantle/surface/solid_shape.h"
 
 #include <cstddef>
-#include <limits>
 #include <optional>
 
 namespace dismantle {
@@ -35,16 +35,6 @@ struct DeepPoint {
   std::uint32_t face_b = 0;  ///< The same of `b`.
   Vec3 point;                ///< The point [mm, frame of the other shape].
   Vec3 nearest;              ///< The nearest point of the other surface [mm, in its frame].
-};
-
-/// How deep points may get [mm].
-struct DepthLimits {
-  double limit = 0;  ///< Of all points.
-  ///@{ Where a solid is nowhere deeper than `limit`, that is no limit, and points could go through it. For such a solid
-  /// this is the limit of points that are further from its surface than `limit` in the assembled state: of points of
-  /// `a` in `b`, and of `b` in `a`. No more than `limit`, with which they have none. Infinite for all other solids.
-  double far_a = std::numeric_limits<double>::infinity(), far_b = std::numeric_limits<double>::infinity();
-  ///@}
 };
 
 /// Which point that gets too deep is sought.

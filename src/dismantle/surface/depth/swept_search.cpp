@@ -50,16 +50,16 @@ Aabb InterpolatedTransform::operator*(const Aabb& own) const {
 }
 
 SweptSearch::SweptSearch(const SolidShape& own, const SolidShape& other, const RigidTransform& start,
-                         const RigidTransform& end, const DepthLimits& limits, double far_limit, ShallowParts* known,
+                         const RigidTransform& end, const DepthRule& rule, bool is_limited, ShallowParts* known,
                          const KeepGoing& keep_going)
     : own_(own),
       other_(other),
       start_(start),
       end_(end),
-      is_limited_(far_limit != limits.limit),
-      region_(other.shallow_region(std::min(limits.limit, far_limit))),
+      is_limited_(is_limited),
+      rule_(rule),
       known_(known),
-      parts_(other, limits.limit, std::min(limits.limit, far_limit), &region_, keep_going) {}
+      parts_(other, rule_, keep_going) {}
 
 std::optional<ShallowParts::EndedAt> SweptSearch::begin() {
   if (!known_ || !known_->begin(start_, end_)) return std::nullopt;
@@ -78,7 +78,7 @@ std::optional<TimedPoint> SweptSearch::sample(double time) {
     const NodeIndex node = nodes.back();
     nodes.pop_back();
     ++visited_;
-    if (region_.contains(now * own.box(node))) continue;
+    if (rule_.region->contains(now * own.box(node))) continue;
     if (node >= bvh.leaf_count()) {
       const BvhChildren children = bvh.children[node - bvh.leaf_count()];
       nodes.push_back(children.left);
@@ -146,7 +146,7 @@ SweptSearch::Result SweptSearch::search(double from, double to, const Visit& in_
     const Aabb begin = at(next.from) * own, end = at(next.to) * own;
     Aabb both = begin;
     both.extend(end);
-    if (region_.contains(both)) continue;
+    if (rule_.region->contains(both)) continue;
     const Bvh& bvh = own_.surface().bvh();
     if (next.node < bvh.leaf_count()) {
       const std::uint32_t face = bvh.leaf_triangle[next.node];

@@ -36,10 +36,10 @@ class SweptSearch {
  public:
   using Result = MovingPartSearch::Result;  ///< The outcome of a search.
 
-  /// @param own, other must outlive this @param start, end the poses in the frame of the other shape @param far_limit
-  /// of the points of this surface @param known what is known of it; may be null
+  /// @param own, other must outlive this @param start, end the poses in the frame of the other shape @param is_limited
+  /// false: nothing can get too deep @param known what is known of this surface; may be null
   SweptSearch(const SolidShape& own, const SolidShape& other, const RigidTransform& start, const RigidTransform& end,
-              const DepthLimits& limits, double far_limit, ShallowParts* known, const KeepGoing& keep_going);
+              const DepthRule& rule, bool is_limited, ShallowParts* known, const KeepGoing& keep_going);
 
   /// Begins the search of the motion. @return where the last search of it ended
   std::optional<ShallowParts::EndedAt> begin();
@@ -79,7 +79,7 @@ class SweptSearch {
   const SolidShape& other_;
   RigidTransform start_, end_;
   bool is_limited_;
-  const ShallowRegion& region_;
+  DepthRule rule_;
   ShallowParts* known_;
   MovingPartSearch parts_;
   std::array<InterpolatedTransform, 8> recent_;  // of the last times
