@@ -21,7 +21,8 @@ struct DepthLimits {
   /// points have none.
   double far_a = std::numeric_limits<double>::infinity(), far_b = std::numeric_limits<double>::infinity();
   ///@}
-  ///@{ The other component has a hole where this one is in the assembled state: in there, the limit is `limit`.
+  ///@{ The other component has a hole where this one is in the assembled state. In there, and next to it up to `limit`,
+  /// far points may get as deep as others.
   bool hole_for_a = false, hole_for_b = false;
   ///@}
 };
@@ -32,8 +33,8 @@ struct DepthRule {
   double far_limit = 0;  ///< Of far points at thin places [mm]; no more than `limit`.
   /// The thin places; null where `far_limit` is `limit`.
   const ThinPlaces* thin = nullptr;
-  /// What is inside this shape, or no further from it than `far_limit`, is in a hole, where far points may get as deep
-  /// as others; null for no hole.
+  /// What is inside this shape, or no further from it than `limit`, is in a hole, where far points may get as deep as
+  /// others; null for no hole.
   const SolidShape* hole = nullptr;
   /// Where no point is too deep, whether it is far or not; null where there is little to search.
   const ShallowRegion* region = nullptr;

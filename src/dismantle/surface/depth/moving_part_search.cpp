@@ -73,7 +73,7 @@ bool MovingPartSearch::is_deep(Vec3 own, Vec3 point, double distance) const {
     if (thick && thick->distance(point, 0, rule_.limit).distance <= rule_.limit) return false;
     if (solid_.surface().distance(own).distance <= rule_.limit) return false;
     const SolidShape* hole = rule_.hole;
-    if (hole && (hole->surface().distance(point).distance <= rule_.far_limit || hole->winding().inside(point)))
+    if (hole && (hole->surface().distance(point).distance <= rule_.limit || hole->winding().inside(point)))
       return false;
   }
   return solid_.winding().inside(point);
@@ -164,13 +164,13 @@ bool MovingPartSearch::in_region(const MovingPart& part, LargerLimit larger) con
 bool MovingPartSearch::in_hole(const MovingPart& part, const Ball& ball, std::uint32_t face) const {
   const SurfaceTree& surface = rule_.hole->surface();
   const std::array<Vec3, 6> corners = corners_of(part);
-  if (near_two_faces(surface, Span<const Vec3>(corners.data(), corners.size()), face, rule_.far_limit)) return true;
+  if (near_two_faces(surface, Span<const Vec3>(corners.data(), corners.size()), face, rule_.limit)) return true;
   const WindingNumber& winding = rule_.hole->winding();
   if (!winding.closed()) return false;
   // A copy that is inside is no further than its shift.
   const double gap = winding.placement();
   const Vec3 inwards = -normalized(normal_unscaled(surface.triangle(face)));
-  for (const Vec3 shift : {Vec3{}, std::max(0.0, rule_.far_limit - 4 * gap) * inwards})
+  for (const Vec3 shift : {Vec3{}, std::max(0.0, rule_.limit - 4 * gap) * inwards})
     if (winding.inside(ball.center + shift) && clear_of(surface, PartHull(part, Span<const Vec3>(&shift, 1)), gap))
       return true;
   return false;
