@@ -14,11 +14,10 @@ struct DepthLimits {
   /// Of all points.
   double limit = 0;
   ///@{ Where a solid is thinner than twice `limit` (ThinPlaces), that is no limit, and points could go through it.
-  /// There
-  /// this is the limit of far points: those that are further from its surface than `limit` in the assembled state, and
-  /// outside. Of points of `a` in `b`, and of `b` in `a`. Next to faces that are not at a thin place, it is `limit`.
-  /// Infinite for solids that are thin nowhere; where all of a solid is thin, no more than `limit`, with which its
-  /// points have none.
+  /// There, this is the limit of far points: those that are outside and further from its surface than `limit` in the
+  /// assembled state; of points of `a` in `b`, and of `b` in `a`. Next to faces that are not at a thin place, it is
+  /// `limit`. Infinite for solids that are thin nowhere; where all of a solid is thin, no more than `limit`, with which
+  /// its points have none.
   double far_a = std::numeric_limits<double>::infinity(), far_b = std::numeric_limits<double>::infinity();
   ///@}
   ///@{ The other component has a hole where this one is in the assembled state. In there, and next to it up to `limit`,
