@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/features/revolution_axes.h"
 
+#include "dismantle/core/connected_sets.h"
 #include "dismantle/features/axis_frame.h"
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/geometry/adjacency.h"
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 
 namespace dismantle {
@@ -100,20 +100,6 @@ std::optional<double> cylinder_distance(const AxisFrame& frame, const Triangle& 
   return facing > 0 ? mean : -mean;
 }
 
-/// A union-find structure over faces.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : of_(count) { std::iota(of_.begin(), of_.end(), 0u); }
-  std::uint32_t of(std::uint32_t face) {
-    while (of_[face] != face) face = of_[face] = of_[of_[face]];
-    return face;
-  }
-  void join(std::uint32_t x, std::uint32_t y) { of_[of(std::max(x, y))] = of(std::min(x, y)); }
-
- private:
-  std::vector<std::uint32_t> of_;
-};
-
 /// The extent of a group of faces as a cylinder.
 struct CylinderExtent {
   double area = 0, distance = 0;
@@ -167,15 +153,16 @@ void add_cylinder_parts(Span<const Vec3> vertices, Span<const Face> faces, Span<
     };
     for (std::size_t f = 0; f < faces.size(); ++f)
       distances[f] = parts[f] == 0 ? cylinder_distance(frame, triangle(f)).value_or(0) : 0;
-    Groups groups(faces.size());
+    ConnectedSets groups(faces.size());
     for (const NeighbouringFaces& n : neighbours) {
       const double x = distances[n.face[0]], y = distances[n.face[1]];
-      if (x * y > 0 && std::abs(x - y) <= kOneDistance * std::abs(x)) groups.join(n.face[0], n.face[1]);
+      if (x * y > 0 && std::abs(x - y) <= kOneDistance * std::abs(x))
+        groups.join(std::min(n.face[0], n.face[1]), std::max(n.face[0], n.face[1]));
     }
     std::map<std::uint32_t, CylinderExtent> cylinders;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
       if (distances[f] == 0) continue;
-      CylinderExtent& cylinder = cylinders[groups.of(f)];
+      CylinderExtent& cylinder = cylinders[groups.set_of(f)];
       ++cylinder.count;
       cylinder.area += length(normal_unscaled(triangle(f))) / 2;
       cylinder.distance = std::abs(distances[f]);
@@ -190,7 +177,8 @@ void add_cylinder_parts(Span<const Vec3> vertices, Span<const Face> faces, Span<
           last < std::numeric_limits<std::uint8_t>::max())
         numbers[group] = static_cast<std::uint8_t>(++last);
     for (std::uint32_t f = 0; f < faces.size(); ++f)
-      if (const auto number = distances[f] != 0 ? numbers.find(groups.of(f)) : numbers.end(); number != numbers.end())
+      if (const auto number = distances[f] != 0 ? numbers.find(groups.set_of(f)) : numbers.end();
+          number != numbers.end())
         parts[f] = number->second;
   }
 }

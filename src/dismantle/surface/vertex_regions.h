@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/core/connected_sets.h"
 #include "dismantle/core/span.h"
 #include "dismantle/surface/assembly_triangles.h"
 
@@ -20,10 +21,8 @@ class VertexRegions {
   std::uint32_t region_of(std::uint32_t vertex);
 
  private:
-  void join(std::uint32_t a, std::uint32_t b) { parent_[region_of(b) - begin_] = region_of(a) - begin_; }
-
   std::uint32_t begin_;
-  std::vector<std::uint32_t> parent_;
+  ConnectedSets sets_;  // of vertices, from begin_ on
 };
 
 /// One vertex of each connected part of the component's surface. Where surfaces do not intersect, it tells for its

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/formats/cad/shape_mesh.h"
 
+#include "dismantle/core/connected_sets.h"
+
 #include <BRep_Tool.hxx>
 #include <NCollection_DataMap.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
@@ -13,7 +15,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
-#include <numeric>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -39,8 +41,7 @@ class NodeWelder {
     const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
     for (int i = 1; i <= triangulation->NbNodes(); ++i)
       mesh_.vertices.push_back(node_position(*triangulation, i, location));
-    same_as_.resize(mesh_.vertices.size());
-    std::iota(same_as_.begin() + first, same_as_.end(), first);
+    same_.grow(mesh_.vertices.size());
 
     for (int i = 1; i <= triangulation->NbTriangles(); ++i) {
       int a = 0, b = 0, c = 0;
@@ -63,13 +64,13 @@ class NodeWelder {
     std::vector<std::uint32_t> kept_index(mesh_.vertices.size());
     std::uint32_t kept = 0;
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-      if (root(v) != v) continue;
+      if (same_.set_of(v) != v) continue;
       mesh_.vertices[kept] = mesh_.vertices[v];
       kept_index[v] = kept++;
     }
     mesh_.vertices.resize(kept);
     for (Face& face : mesh_.faces)
-      for (std::uint32_t& v : face.v) v = kept_index[root(v)];
+      for (std::uint32_t& v : face.v) v = kept_index[same_.set_of(v)];
     return std::move(mesh_);
   }
 
@@ -103,21 +104,14 @@ class NodeWelder {
     return node_there;
   }
 
-  std::uint32_t root(std::uint32_t v) {
-    while (same_as_[v] != v) v = same_as_[v] = same_as_[same_as_[v]];
-    return v;
-  }
-
   /// The earlier node represents both.
   void weld(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a < b) std::swap(a, b);
-    same_as_[a] = b;
+    const auto [first, second] = std::minmax({same_.set_of(a), same_.set_of(b)});
+    same_.join(first, second);
   }
 
   TriangleMesh mesh_;
-  std::vector<std::uint32_t> same_as_;  // union-find over the vertices of mesh_
+  ConnectedSets same_;  // of vertices of mesh_
   NCollection_DataMap<TopoDS_Shape, std::vector<std::uint32_t>, TopTools_ShapeMapHasher> edge_nodes_;
   NCollection_DataMap<TopoDS_Shape, std::uint32_t, TopTools_ShapeMapHasher> vertex_nodes_;
 };

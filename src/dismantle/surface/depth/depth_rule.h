@@ -32,8 +32,8 @@ struct DepthRule {
   double far_limit = 0;  ///< Of far points at thin places [mm]; no more than `limit`.
   /// The thin places; null where `far_limit` is `limit`.
   const ThinPlaces* thin = nullptr;
-  /// What is inside this shape, or no further from it than `limit`, is in a hole, where far points may get as deep as
-  /// others; null for no hole.
+  /// The hole: all points inside this shape or within `limit` of it. Far points in it have the same limit as all
+  /// others. Null for none.
   const SolidShape* hole = nullptr;
   /// Where no point is too deep, whether it is far or not; null where there is little to search.
   const ShallowRegion* region = nullptr;

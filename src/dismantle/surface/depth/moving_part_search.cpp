@@ -224,9 +224,11 @@ bool MovingPartSearch::find_proof(const MovingPart& part, const Ball& ball, cons
 }
 
 bool MovingPartSearch::holds(const ShallowProof& known, const MovingPart& part) const {
+  // LargerLimit::WasNear is about the assembled state: it holds for every motion.
+  if (known.reason == ShallowReason::Region && known.larger != LargerLimit::InHole)
+    return in_region(part, known.larger);
   const Ball ball = ball_around(part);
   const double radius = ball.radius + ball.way;
-  // What was near does not depend on the motion.
   if (known.larger == LargerLimit::InHole && !in_hole(part, ball, known.hole_face)) return false;
   switch (known.reason) {
     case ShallowReason::Unknown:

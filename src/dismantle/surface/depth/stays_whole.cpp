@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/surface/depth/stays_whole.h"
 
+#include "dismantle/core/connected_sets.h"
+
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -16,24 +16,6 @@ namespace {
 
 /// Largest number of faces, and of parts of them, that are divided.
 constexpr int kMaxDivided = 5000;
-
-/// Vertices in sets that are connected (a union-find).
-class ConnectedVertices {
- public:
-  explicit ConnectedVertices(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t add() {
-    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-    return parent_.back();
-  }
-  std::uint32_t set_of(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[set_of(b)] = set_of(a); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// A surface from which a solid is cut.
 class CutSurface {
@@ -131,14 +113,16 @@ class CutSurface {
     if (!fresh) return known->second;
     vertices_.push_back((vertices_[a] + vertices_[b]) / 2);
     side_.push_back(Side::Unknown);
-    before_.join(a, before_.add());
-    return after_.add();
+    before_.grow(vertices_.size());
+    after_.grow(vertices_.size());
+    before_.join(a, known->second);
+    return known->second;
   }
 
   std::vector<Vec3> vertices_;
   const SolidShape& cutter_;
   std::vector<Side> side_;
-  ConnectedVertices before_, after_;
+  ConnectedSets before_, after_;  // of vertices
   std::priority_queue<Part> across_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
   MeshDistance last_;

@@ -14,8 +14,8 @@ namespace dismantle {
 
 namespace {
 
-/// Faces face each other from two sides of a wall where the cosine between their normals is less than this. An edge
-/// between two faces that are no sharper than that is within twice the limit of all that is within the limit of both.
+/// Faces face each other from two sides of a wall where the cosine between their normals is less than this. Where two
+/// faces meet at a blunter edge, what is within the limit of both is within about twice the limit of that edge.
 constexpr double kOpposite = -0.55;
 
 /// A face with its plane.
