@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 
 namespace dismantle::soak {
@@ -30,8 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The batches of all assemblies are run in so many rounds: what is recorded of a soak that was ended is of all of
-/// them.
+/// The batches of all assemblies are run in so many rounds, so that what is recorded of a soak that was ended is of all
+/// of them.
 constexpr int kRounds = 20;
 
 struct Settings {
@@ -49,58 +50,17 @@ struct Input {
   std::string name, file;
 };
 
-/// The batches of one assembly.
-class Soak {
- public:
-  Soak(const Settings& settings, std::string name, const Assembly& assembly, const PairStates& states, Record& record)
-      : settings_(settings),
-        name_(std::move(name)),
-        assembly_(assembly),
-        states_(states),
-        record_(record),
-        executor_(settings.jobs > 1 ? Executor(ExecutorKind::Threads, settings.jobs) : Executor()),
-        auditor_(assembly, executor_) {}
+/// An assembly with what every batch needs.
+struct Loaded {
+  Input input;
+  Assembly assembly;
+  double weight = 0;  // of its share of the steps
+};
 
-  /// Runs the batches in [0, count) that are not recorded. @return false where one could not be recorded
-  bool run(std::uint64_t count, const bench::Stopwatch& watch) {
-    std::vector<std::uint64_t> left;
-    for (std::uint64_t batch = 0; batch < count; ++batch)
-      if (!record_.has(name_, batch)) left.push_back(batch);
-    std::atomic<bool> recorded = true;
-    executor_.for_each_heavy(left.size(), [&](std::size_t i) {
-      if (recorded && watch.seconds() < settings_.seconds) recorded = run_batch(left[i]) && recorded;
-    });
-    return recorded;
-  }
-
- private:
-  bool run_batch(std::uint64_t number) const {
-    const Batch batch =
-        soak::run_batch(assembly_, states_, auditor_, settings_.seed * 1'000'003 + number, settings_.batch);
-    if (!batch.result.good()) report_failure(number, batch);
-    const Result<Done> added = record_.add(name_, number, batch.result);
-    if (!added) std::fprintf(stderr, "soak_motion: %s\n", added.error().message.c_str());
-    return static_cast<bool>(added);
-  }
-
-  void report_failure(std::uint64_t number, const Batch& batch) const {
-    std::fprintf(stderr, "  %s, batch %llu: %zu violations, %zu stuck; %s\n", name_.c_str(),
-                 static_cast<unsigned long long>(number), batch.result.violations, batch.result.stuck,
-                 batch.result.message.c_str());
-    if (settings_.keep.empty()) return;
-    fs::create_directories(settings_.keep);
-    const std::string stem = settings_.keep + "/" + name_ + "." + std::to_string(number);
-    if (!write_motion(stem + ".motion.json", batch.motion) || !write_path(stem + ".path.json", batch.path))
-      std::fprintf(stderr, "  %s could not be written\n", stem.c_str());
-  }
-
-  const Settings& settings_;
-  std::string name_;
-  const Assembly& assembly_;
-  const PairStates& states_;
-  Record& record_;
-  Executor executor_;
-  PathAuditor auditor_;
+/// What the batches of an assembly share.
+struct Prepared {
+  PairStates states;
+  PathAuditor auditor;
 };
 
 /// Prints the row of an assembly. @return true if it has batches and nothing is wrong with any of them
@@ -141,14 +101,6 @@ std::vector<Input> find_inputs(const Settings& settings) {
   return inputs;
 }
 
-/// An assembly with what every batch needs.
-struct Loaded {
-  Input input;
-  Assembly assembly;
-  double weight = 0;                 // of its share of the steps
-  std::optional<PairStates> states;  // once they are needed
-};
-
 bool parse(int argc, char** argv, Settings& settings) {
   bench::CommandLine line(
       "soak_motion [--steps N] [--seed N] [--jobs N] [--threads N] [--targets N] [--audit-seconds S] [--seconds S]\n"
@@ -175,42 +127,107 @@ bool load(const Settings& settings, std::vector<Loaded>& loaded) {
       return false;
     }
     const double weight = 1 / std::sqrt(static_cast<double>(std::max<std::size_t>(triangle_count(*assembly), 1)));
-    loaded.push_back({input, std::move(*assembly), weight, {}});
+    loaded.push_back({input, std::move(*assembly), weight});
   }
   return true;
 }
 
-bool run(const Settings& settings, Record& record, std::vector<Loaded>& loaded) {
-  const bench::Stopwatch watch;
+/// Number of batches of an assembly in the first rounds.
+std::uint64_t count_batches(const Settings& settings, const std::vector<Loaded>& loaded, const Loaded& one,
+                            int rounds) {
   double weights = 0;
-  for (const Loaded& one : loaded) weights += one.weight;
-  const auto count_of = [&](const Loaded& one, int round) {
-    const double steps = static_cast<double>(settings.steps) * one.weight / weights * round / kRounds;
-    return static_cast<std::uint64_t>(std::ceil(steps / (kDragsPerBatch * settings.batch.targets)));
-  };
-  for (int round = 1; round <= kRounds; ++round)
-    for (Loaded& one : loaded) {
-      if (record.of(one.input.name).batches >= count_of(one, round) || watch.seconds() >= settings.seconds) continue;
-      if (!one.states) {
-        Result<PairStates> states = classify_pairs(one.assembly, {});
-        if (!states) {
-          std::fprintf(stderr, "soak_motion: %s\n", states.error().message.c_str());
-          return false;
-        }
-        one.states = std::move(*states);
+  for (const Loaded& each : loaded) weights += each.weight;
+  const double steps = static_cast<double>(settings.steps) * one.weight / weights * rounds / kRounds;
+  return static_cast<std::uint64_t>(std::ceil(steps / (kDragsPerBatch * settings.batch.targets)));
+}
+
+/// The batches that are left, which several threads take one after another.
+class Soak {
+ public:
+  Soak(const Settings& settings, const std::vector<Loaded>& loaded, Record& record)
+      : settings_(settings), loaded_(loaded), record_(record), prepared_(loaded.size()), once_(loaded.size()) {
+    for (int round = 1; round <= kRounds; ++round)
+      for (std::size_t which = 0; which < loaded.size(); ++which) {
+        const Loaded& one = loaded[which];
+        const std::uint64_t first = count_batches(settings, loaded, one, round - 1);
+        for (std::uint64_t batch = first; batch < count_batches(settings, loaded, one, round); ++batch)
+          if (!record.has(one.input.name, batch)) left_.push_back({which, batch});
       }
-      if (!Soak(settings, one.input.name, one.assembly, *one.states, record).run(count_of(one, round), watch))
-        return false;
-    }
-  bool good = true;
-  std::uint64_t left = 0;
-  for (const Loaded& one : loaded) {
-    const std::uint64_t done = record.of(one.input.name).batches, count = count_of(one, kRounds);
-    left += done < count ? count - done : 0;
-    good = print_row(one.input, one.assembly, record) && good;
   }
-  if (left > 0) std::fprintf(stderr, "soak_motion: %llu batches are left\n", static_cast<unsigned long long>(left));
-  return good && left == 0;
+
+  /// Runs the batches until the time is up. @return the number of those that are left; none where one failed
+  std::optional<std::size_t> run() {
+    const bench::Stopwatch watch;
+    const Executor executor = settings_.jobs > 1 ? Executor(ExecutorKind::Threads, settings_.jobs) : Executor();
+    executor.for_each_heavy(static_cast<std::size_t>(settings_.jobs), [&](std::size_t) {
+      while (!failed_ && watch.seconds() < settings_.seconds) {
+        const std::size_t i = next_++;
+        if (i >= left_.size()) return;
+        if (!run_batch(left_[i])) failed_ = true;
+      }
+    });
+    if (failed_) return std::nullopt;
+    return left_.size() - std::min<std::size_t>(next_, left_.size());
+  }
+
+ private:
+  struct Item {
+    std::size_t which;  // assembly
+    std::uint64_t batch;
+  };
+
+  const Prepared* prepare(std::size_t which) {
+    std::call_once(once_[which], [&] {
+      const Assembly& assembly = loaded_[which].assembly;
+      Result<PairStates> states = classify_pairs(assembly, {});
+      if (states)
+        prepared_[which].emplace(Prepared{std::move(*states), PathAuditor(assembly)});
+      else
+        std::fprintf(stderr, "soak_motion: %s\n", states.error().message.c_str());
+    });
+    return prepared_[which] ? &*prepared_[which] : nullptr;
+  }
+
+  bool run_batch(Item item) {
+    const Loaded& one = loaded_[item.which];
+    const Prepared* prepared = prepare(item.which);
+    if (prepared == nullptr) return false;
+    const Batch batch = soak::run_batch(one.assembly, prepared->states, prepared->auditor,
+                                        settings_.seed * 1'000'003 + item.batch, settings_.batch);
+    if (!batch.result.good()) report_failure(one.input.name, item.batch, batch);
+    const Result<Done> added = record_.add(one.input.name, item.batch, batch.result);
+    if (!added) std::fprintf(stderr, "soak_motion: %s\n", added.error().message.c_str());
+    return static_cast<bool>(added);
+  }
+
+  void report_failure(const std::string& name, std::uint64_t number, const Batch& batch) const {
+    std::fprintf(stderr, "  %s, batch %llu: %zu violations, %zu stuck; %s\n", name.c_str(),
+                 static_cast<unsigned long long>(number), batch.result.violations, batch.result.stuck,
+                 batch.result.message.c_str());
+    if (settings_.keep.empty()) return;
+    fs::create_directories(settings_.keep);
+    const std::string stem = settings_.keep + "/" + name + "." + std::to_string(number);
+    if (!write_motion(stem + ".motion.json", batch.motion) || !write_path(stem + ".path.json", batch.path))
+      std::fprintf(stderr, "  %s could not be written\n", stem.c_str());
+  }
+
+  const Settings& settings_;
+  const std::vector<Loaded>& loaded_;
+  Record& record_;
+  std::vector<std::optional<Prepared>> prepared_;
+  std::vector<std::once_flag> once_;
+  std::vector<Item> left_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> failed_ = false;
+};
+
+bool run(const Settings& settings, Record& record, const std::vector<Loaded>& loaded) {
+  const std::optional<std::size_t> left = Soak(settings, loaded, record).run();
+  if (!left) return false;
+  bool good = true;
+  for (const Loaded& one : loaded) good = print_row(one.input, one.assembly, record) && good;
+  if (*left > 0) std::fprintf(stderr, "soak_motion: %zu batches are left\n", *left);
+  return good && *left == 0;
 }
 
 }  // namespace
