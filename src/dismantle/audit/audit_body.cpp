@@ -198,6 +198,10 @@ bool AuditBody::visit_faces(const MayMeet& may_meet, const Visit& visit) const {
   return true;
 }
 
+double AuditBody::distance_from_box(Vec3 point) const {
+  return std::sqrt(squared_distance_to_box(nodes_[0], point));
+}
+
 std::optional<std::uint32_t> AuditBody::face_within(Vec3 point, double distance, std::uint32_t hint) const {
   if (distance_to_triangle(triangle(hint), point) <= distance) return hint;
   std::optional<std::uint32_t> found;

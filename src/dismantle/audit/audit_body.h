@@ -70,6 +70,9 @@ class AuditBody {
 
   /// The distance of a point [mm, body frame] from the surface. @param hint a face to start from @pre !empty()
   SurfacePoint closest(Vec3 point, std::uint32_t hint = 0) const;
+  /// The distance of a point [mm, body frame] from the box of the surface, which is no more than that from the surface.
+  /// @pre !empty()
+  double distance_from_box(Vec3 point) const;
   /// Some face that is no further from a point [mm, body frame] than `distance`; nothing where there is none.
   /// @param hint a face to start from @pre !empty()
   std::optional<std::uint32_t> face_within(Vec3 point, double distance, std::uint32_t hint = 0) const;

@@ -92,6 +92,7 @@ struct PathAuditor::Known {
   }
 
   std::vector<std::unique_ptr<const audit::SolidBody>> bodies;
+  audit::KnownWalls walls;
   std::mutex mutex;
   std::map<Key, audit::InitialDepths> depths;
 };
@@ -115,8 +116,8 @@ AuditReport PathAuditor::audit(const Path& path, const AuditOptions& options) co
   report.slack = slack_of(*assembly_, path);
   report.violations = audit::check_declarations(*assembly_, path);
 
-  audit::DepthContext context{*assembly_,      path, known_->bodies, {}, {}, report.slack, 0, options.executor,
-                              options.progress};
+  audit::DepthContext context{
+      *assembly_, path, known_->bodies, {}, {}, known_->walls, report.slack, 0, options.executor, options.progress};
   const audit::InitialDepths* initial = known_->initial_depths(context, 1 / stages_of(path));
   if (initial) {
     audit::enter_initial_depths(context, *initial);

@@ -5,12 +5,15 @@ namespace dismantle::audit {
 
 namespace {
 
+/// Parts of a solid that are thinner than this part of the depth of a pair need not be found when its hole is cut out.
+constexpr double kFinestCut = 0.25;
+
 /// One side of a pair: points of one component in the frame of the other.
 struct Side {
-  std::size_t pair = 0;                            ///< Index of the pair.
-  bool of_b = false;                               ///< Points of b in the frame of a, else of a in the frame of b.
-  std::vector<FollowedPoint>* followed = nullptr;  ///< Of the context.
-  Crossing crossing;                               ///< What was found.
+  std::size_t pair = 0;              ///< Index of the pair.
+  bool of_b = false;                 ///< Points of b in the frame of a, else of a in the frame of b.
+  FollowedSide* followed = nullptr;  ///< Of the context.
+  Crossing crossing;                 ///< What was found.
 };
 
 AuditViolation violation_of(const MovePairs& move, const Side& side, double allowed) {
@@ -30,20 +33,61 @@ AuditViolation violation_of(const MovePairs& move, const Side& side, double allo
   return violation;
 }
 
-/// The sides of the pairs that need the test, with the points that are followed from move to move.
+/// True if a pair overlaps in the assembled state and has not been apart, so that its allowance may be that of a wall.
+bool is_joined(const DepthContext& context, const MovePair& pair) {
+  return pair.joined && context.ledger.at(pair.key()).pair.state == PathPairState::Overlapping;
+}
+
+/// What is followed of one side of a pair, from the first move on in which it is needed.
+FollowedSide follow_side(DepthContext& context, const MovePair& pair, std::uint32_t points, std::uint32_t surface) {
+  const SolidBody &body = *context.bodies[points], &other = *context.bodies[surface];
+  const double size = std::min(body.surface().node(0).radius, other.surface().node(0).radius);
+  const double spacing = 2 * kFollowedSpacing * size, tolerance = context.path.tolerance;
+  FollowedSide side;
+  if (!needs_crossing_test(body, other, tolerance)) {
+    if (!is_joined(context, pair) || !context.walls.has_thin_wall(other, 2 * pair.allowed, spacing)) return side;
+    const double depth = context.ledger.at(pair.key()).pair.initial_depth;
+    side.hole.emplace(other, body, std::max(tolerance, kFinestCut * depth), context.walls);
+  }
+  side.points = followed_points(body.surface(), spacing);
+  return side;
+}
+
+/// A side of a pair, from which on points are followed.
+struct NewSide {
+  const MovePair* pair;
+  std::uint32_t points, surface;
+  FollowedSide* side;  ///< Of the context.
+};
+
+/// Finds what is followed of the pairs that need the test; false where it was cancelled.
+bool begin_sides(DepthContext& context, const MovePairs& move, double progress) {
+  std::vector<NewSide> fresh;
+  for (const MovePair& pair : move.pairs) {
+    if (!needs_crossing_test(*pair.pair.a, *pair.pair.b, context.path.tolerance) && !is_joined(context, pair)) continue;
+    for (const auto& [points, surface] : {std::pair{pair.a, pair.b}, std::pair{pair.b, pair.a}}) {
+      const auto [entry, is_fresh] = context.followed.try_emplace({points, surface});
+      if (is_fresh) fresh.push_back({&pair, points, surface, &entry->second});
+    }
+  }
+  return context.run(fresh.size(), progress, progress, [&](std::size_t i) {
+    *fresh[i].side = follow_side(context, *fresh[i].pair, fresh[i].points, fresh[i].surface);
+  });
+}
+
+/// The sides of the pairs of which points are followed.
 std::vector<Side> find_sides(DepthContext& context, const MovePairs& move) {
   std::vector<Side> sides;
   for (std::size_t i = 0; i < move.pairs.size(); ++i) {
     const MovePair& pair = move.pairs[i];
     const auto known = context.ledger.find(pair.key());
     if (known != context.ledger.end() && known->second.violated) continue;
-    if (!needs_crossing_test(*pair.pair.a, *pair.pair.b, context.path.tolerance)) continue;
-    const double size = std::min(pair.pair.a->surface().node(0).radius, pair.pair.b->surface().node(0).radius);
     for (const bool of_b : {false, true}) {
-      const std::uint32_t points = of_b ? pair.b : pair.a, surface = of_b ? pair.a : pair.b;
-      const auto [entry, fresh] = context.followed.try_emplace({points, surface});
-      if (fresh) entry->second = followed_points(context.bodies[points]->surface(), 2 * kFollowedSpacing * size);
-      sides.push_back({i, of_b, &entry->second, {}});
+      const std::pair points_surface = of_b ? std::pair{pair.b, pair.a} : std::pair{pair.a, pair.b};
+      const auto side = context.followed.find(points_surface);
+      if (side == context.followed.end() || side->second.points.empty()) continue;
+      if (side->second.hole && !pair.joined) continue;
+      sides.push_back({i, of_b, &side->second, {}});
     }
   }
   return sides;
@@ -52,6 +96,7 @@ std::vector<Side> find_sides(DepthContext& context, const MovePairs& move) {
 }  // namespace
 
 bool check_move_crossings(DepthContext& context, const MovePairs& move, double progress_from, double progress_to) {
+  if (!begin_sides(context, move, progress_from)) return false;
   std::vector<Side> sides = find_sides(context, move);
   const bool completed = context.run(sides.size(), progress_from, progress_to, [&](std::size_t i) {
     Side& side = sides[i];
@@ -62,8 +107,10 @@ bool check_move_crossings(DepthContext& context, const MovePairs& move, double p
     std::fill(allowed.begin() + std::min<std::ptrdiff_t>(pair.parted, std::ptrdiff_t(allowed.size())), allowed.end(),
               context.path.tolerance);
     const SolidBody& surface = side.of_b ? *pair.pair.a : *pair.pair.b;
-    side.crossing =
-        follow_points(surface.surface(), *side.followed, {motions, allowed, context.slack, pair.pair.motion.rounding});
+    const Hole* const hole = side.followed->hole ? &*side.followed->hole : nullptr;
+    if (hole) motions.resize(std::min<std::size_t>(pair.parted, motions.size()));  // solids cannot be passed then
+    side.crossing = follow_points(surface.surface(), side.followed->points,
+                                  {motions, allowed, context.slack, pair.pair.motion.rounding, hole});
   });
   for (const Side& side : sides) {
     if (side.crossing.beyond == 0) continue;

@@ -54,7 +54,8 @@ struct DepthContext {
   const std::vector<std::unique_ptr<const SolidBody>>& bodies;  ///< Of each component.
   DepthLedger ledger;                                           ///< Pairs with allowances of their own, or violations.
   /// Points of the first component followed in the frame of the second.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<FollowedPoint>> followed;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, FollowedSide> followed;
+  KnownWalls& walls;       ///< Of the bodies.
   double slack = 0;        ///< AuditReport::slack [mm].
   std::size_t pieces = 0;  ///< AuditReport::pieces.
   ///@{ Of AuditOptions.

@@ -37,7 +37,7 @@ class PointFollower {
     for (double s = 0; s < 1;) {
       const double step = std::min({longest, 1 - s, begin_step(now, {segment, s}, allowed, speed)});
       const double shortest = speed > 0 ? kStep * allowed / speed : 1;
-      s = advance(motion, body, {s, step, shortest}, now);
+      s = advance(motion, body, {s, step, shortest, allowed}, now);
       const double beyond = ghost_ ? length(now - *ghost_) : 0;
       if (beyond > allowed + rule_.slack && !find_offset(body, {segment, s})) return {beyond, segment, s, now};
       if (speed == 0) break;
@@ -51,18 +51,21 @@ class PointFollower {
     double s = 0;
   };
   struct Step {
-    double from, length, shortest;
+    double from, length, shortest, allowed;
   };
 
   /// Starts or ends the ghost at a point. @return a time in which the point needs none
   double begin_step(Vec3 now, Time time, double allowed, double speed) {
-    const SurfacePoint closest = surface_.closest(now, last_face_);
-    last_face_ = closest.face;
-    if (closest.distance > allowed + rule_.slack) {
+    double distance = surface_.distance_from_box(now);
+    if (distance <= 2 * allowed) {
+      const SurfacePoint closest = surface_.closest(now, last_face_);
+      last_face_ = closest.face;
+      distance = closest.distance;
+    }
+    if (distance > allowed + rule_.slack) {
       ghost_.reset();
       has_been_clear_ = true;
-      const double free = closest.distance - allowed;
-      return speed > 0 ? std::max(free, kStep * allowed) / speed : 1;
+      return speed > 0 ? std::max(distance - allowed, kStep * allowed) / speed : 1;
     }
     if (!ghost_ && has_been_clear_) {
       ghost_ = now;
@@ -88,7 +91,16 @@ class PointFollower {
     ghost.approach(next);
     ghost_ = ghost.position();
     now = next;
+    if (length(now - *ghost_) > step.allowed / 2 && is_in_hole(now, step.allowed)) {
+      ghost_.reset();
+      has_been_clear_ = false;
+    }
     return step.from + step.length;
+  }
+
+  /// True if the point or its ghost is in a hole, so that both sides are free.
+  bool is_in_hole(Vec3 now, double allowed) {
+    return rule_.hole && (rule_.hole->has(now, allowed) || rule_.hole->has(*ghost_, allowed));
   }
 
   /// Looks for another ghost, one that keeps its offset from the point in the point's body since the first ghost began
@@ -161,7 +173,8 @@ double mean_thickness(const AuditBody& body) {
 
 }  // namespace
 
-std::vector<FollowedPoint> followed_points(const AuditBody& body, double spacing) {
+void visit_points_of_faces(const AuditBody& body, double spacing,
+                           const std::function<void(std::uint32_t, Vec3)>& visit) {
   for (spacing = std::max(spacing, 1e-9 * body.node(0).reach);; spacing *= 1.5) {
     std::size_t count = body.vertex_count();
     for (std::uint32_t f = 0; f < body.face_count(); ++f) {
@@ -170,8 +183,6 @@ std::vector<FollowedPoint> followed_points(const AuditBody& body, double spacing
     }
     if (count <= std::max(kMaxFollowed, body.vertex_count())) break;
   }
-  std::vector<FollowedPoint> followed;
-  for (std::uint32_t v = 0; v < body.vertex_count(); ++v) followed.push_back({body.vertex(v), {}, false});
   for (std::uint32_t f = 0; f < body.face_count(); ++f) {
     const Triangle t = body.triangle(f);
     const std::size_t n = divisions(t, spacing);
@@ -179,10 +190,23 @@ std::vector<FollowedPoint> followed_points(const AuditBody& body, double spacing
       for (std::size_t j = 0; i + j <= n; ++j) {
         if (i == n || j == n || (i == 0 && j == 0)) continue;
         const double u = double(i) / double(n), v = double(j) / double(n);
-        followed.push_back({t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]), {}, false});
+        visit(f, t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]));
       }
   }
+}
+
+std::vector<FollowedPoint> followed_points(const AuditBody& body, double spacing) {
+  std::vector<FollowedPoint> followed;
+  for (std::uint32_t v = 0; v < body.vertex_count(); ++v) followed.push_back({body.vertex(v), {}, false});
+  visit_points_of_faces(body, spacing, [&](std::uint32_t, Vec3 point) { followed.push_back({point, {}, false}); });
   return followed;
+}
+
+bool Hole::has(Vec3 point, double margin) const {
+  const Vec3 there = point + (solid_->surface().center() - other_->surface().center());
+  if (other_->surface().distance_from_box(there) > margin) return false;
+  if (!other_->surface().face_within(there, margin) && !other_->inside(there)) return false;
+  return known_->has_hole(*solid_, *other_, finest_);
 }
 
 Crossing follow_points(const AuditBody& surface, std::vector<FollowedPoint>& followed, const CrossingRule& rule) {

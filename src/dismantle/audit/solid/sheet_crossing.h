@@ -2,8 +2,10 @@
 #pragma once
 
 #include "dismantle/audit/solid/depth_search.h"
+#include "dismantle/audit/solid/thin_walls.h"
 #include "dismantle/core/span.h"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -26,6 +28,33 @@ inline constexpr std::size_t kMaxFollowed = 4096;
 /// more than kMaxFollowed.
 std::vector<FollowedPoint> followed_points(const AuditBody& body, double spacing);
 
+/// Calls visit(face, point) for points on the faces of a surface, its vertices aside, no further apart than `spacing`
+/// [mm]; further, where that would be more than kMaxFollowed.
+void visit_points_of_faces(const AuditBody& body, double spacing,
+                           const std::function<void(std::uint32_t, Vec3)>& visit);
+
+/// The place that another solid takes in a solid in the assembled state. Two solids that overlap are drawn without what
+/// makes room for one in the other: where one would stay in one piece with such a hole, points in it are free.
+class Hole {
+ public:
+  /// @param finest parts that are thinner may be taken for connected [mm] @param known must outlive this
+  Hole(const SolidBody& solid, const SolidBody& other, double finest, KnownWalls& known)
+      : solid_(&solid), other_(&other), finest_(finest), known_(&known) {}
+  /// True if the solid has a hole, and a point [mm, its frame] is in it or within `margin` of it [mm].
+  bool has(Vec3 point, double margin) const;
+
+ private:
+  const SolidBody *solid_, *other_;
+  double finest_;
+  KnownWalls* known_;
+};
+
+/// The points of one component that are followed in the frame of another one, from move to move.
+struct FollowedSide {
+  std::vector<FollowedPoint> points;  ///< None where nothing is followed.
+  std::optional<Hole> hole;           ///< Of solids that overlap in the assembled state.
+};
+
 /// A point that went through a surface.
 struct Crossing {
   double beyond = 0;          ///< How far it is behind its ghost [mm]; 0 for none.
@@ -40,6 +69,7 @@ struct CrossingRule {
   Span<const double> allowed;          ///< Largest distance of a point from its ghost in each segment [mm].
   double slack = 0;                    ///< Violated where it is more than this above it [mm].
   double rounding = 0;                 ///< Error bound of a distance [mm].
+  const Hole* hole = nullptr;          ///< Where points are free; null for none.
 };
 
 /// Follows points through a move and finds the first in time that goes through the surface. Each point is followed by a
