@@ -50,6 +50,14 @@ FollowedSide follow_side(DepthContext& context, const MovePair& pair, std::uint3
     side.hole.emplace(other, body, std::max(tolerance, kFinestCut * depth), context.walls);
   }
   side.points = followed_points(body.surface(), spacing);
+  if (side.hole) {
+    // Points that are near in the assembled state may leave to any side.
+    const Vec3 there = body.surface().center() - other.surface().center();
+    std::erase_if(side.points, [&](const FollowedPoint& point) {
+      const Vec3 place = point.body + there;
+      return other.surface().face_within(place, pair.allowed) || other.inside(place);
+    });
+  }
   return side;
 }
 
