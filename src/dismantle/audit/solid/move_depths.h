@@ -4,7 +4,7 @@
 #include "dismantle/assembly/path.h"
 #include "dismantle/audit/audit_report.h"
 #include "dismantle/audit/solid/depth_search.h"
-#include "dismantle/audit/solid/sheet_crossing.h"
+#include "dismantle/audit/solid/surface_crossing.h"
 #include "dismantle/core/progress.h"
 #include "dismantle/core/span.h"
 #include "dismantle/exec/executor.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/audit/solid/thin_walls.h"
 
-#include "dismantle/audit/solid/sheet_crossing.h"
+#include "dismantle/audit/solid/surface_crossing.h"
 #include "dismantle/audit/triangle_axes.h"
 #include "dismantle/core/connected_sets.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/audit/solid/sheet_crossing.h"
+#include "dismantle/audit/solid/surface_crossing.h"
 
 #include "dismantle/audit/solid/ghost_point.h"
 
