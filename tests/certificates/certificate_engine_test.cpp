@@ -159,6 +159,23 @@ TEST(CertificateEngine, LeavesAContact) {
   EXPECT_EQ(h.engine.poses()[0], up);
 }
 
+TEST(CertificateEngine, TakesARotationForTheSameWithAllItsSignsChanged) {
+  const Assembly assembly = block_and_floor();
+  const PairStates states = states_of(assembly);
+  const Pose up{{0, 2, 5}, quat_about({0, 1, 0}, 0.3)}, other{{1, 2, 5}, quat_about({0, 1, 0}, 0.4)};
+  const Pose same{up.position, -up.rotation}, other_same{other.position, -other.rotation};
+  for (const ResponseKind response : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide}) {
+    Grabbed h(assembly, states, 0);
+    ASSERT_TRUE(h.engine.step(up, response).reached);
+    const StepResult stay = h.engine.step(same, response);
+    EXPECT_TRUE(stay.reached);
+    EXPECT_TRUE(stay.poses.empty());
+    EXPECT_EQ(h.engine.poses()[0], up);
+    EXPECT_TRUE(h.engine.step(other_same, response).reached);
+    EXPECT_EQ(h.engine.poses()[0], other);
+  }
+}
+
 TEST(CertificateEngine, GivesTheSameOnEveryExecutorAndLaneCount) {
   std::mt19937_64 seed(11);
   const Assembly assembly = scenes::random_assembly(seed, 12, 6);

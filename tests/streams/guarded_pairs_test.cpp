@@ -67,6 +67,16 @@ TriangleMesh needle(double tip) {
                        {{}, quat_about({0, 0, 1}, 3.14159265358979 / 4)});
 }
 
+TEST(StepTowards, TakesARotationForTheSameWithAllItsSignsChanged) {
+  Held held(needle(0.5), scenes::box({-2, -2, -2}, {2, 2, 0}));
+  const Pose up{{0, 0, 1}, quat_about({0, 0, 1}, 0.3)};
+  ASSERT_TRUE(held.engine->step(up, ResponseKind::Touch).reached);
+  const StepResult stay = held.engine->step({up.position, -up.rotation}, ResponseKind::Touch);
+  EXPECT_TRUE(stay.reached);
+  EXPECT_TRUE(stay.poses.empty());
+  EXPECT_EQ(held.engine->poses()[0], up);
+}
+
 TEST(GuardedPairs, StopANeedleOnAnEdgeOfAFace) {
   Held held(needle(0.5), scenes::box({-2, -2, -2}, {2, 2, 0}));
   EXPECT_NEAR(held.go({0, 0, -0.05}, 30), 0.5, kTolerance);

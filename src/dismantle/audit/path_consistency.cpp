@@ -37,7 +37,7 @@ bool finite(const Pose& pose) {
 bool same_pose(const Pose& a, const Pose& b) {
   const double scale = std::max({1.0, max_abs(a.position), max_abs(b.position)});
   if (!(max_abs(a.position - b.position) <= kPoseAgreement * scale)) return false;
-  const Quat other = dot(a.rotation, b.rotation) < 0 ? -b.rotation : b.rotation;
+  const Quat other = nearer_to(a.rotation, b.rotation);
   const Quat d{a.rotation.w - other.w, a.rotation.x - other.x, a.rotation.y - other.y, a.rotation.z - other.z};
   return dot(d, d) <= kPoseAgreement * kPoseAgreement;
 }

@@ -40,6 +40,11 @@ inline Quat normalized(const Quat& q) {
   return l > 0 ? Quat{q.w / l, q.x / l, q.y / l, q.z / l} : Quat{};
 }
 
+/// The same rotation as `q`: of `q` and `-q`, the one that is nearer to `other`.
+DISMANTLE_HOST_DEVICE constexpr Quat nearer_to(const Quat& other, const Quat& q) {
+  return dot(other, q) < 0 ? -q : q;
+}
+
 /// The rotation by `angle` [rad] about the unit vector `axis`, right-handed.
 inline Quat quat_about(Vec3 axis, double angle) {
   const double s = std::sin(angle / 2);

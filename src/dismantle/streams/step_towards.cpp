@@ -79,17 +79,18 @@ RigidSet make_rigid_set(const Assembly& assembly, std::vector<ComponentId> compo
 
 StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& start, const Pose& target,
                         ResponseKind response, double tolerance) {
+  const Pose goal{target.position, nearer_to(start.rotation, target.rotation)};
   DISMANTLE_EXPECT(response != ResponseKind::Slide);
   DISMANTLE_EXPECT(tolerance > 0);
   StepResult result;
   result.pose = start;
   result.cost.stages = {{kVerticesStage}, {kRefitStage}, {kFrontStage}, {kIntersectionStage}};
-  if (start == target) {
+  if (start == goal) {
     result.reached = true;
     return result;
   }
 
-  const Screw screw = screw_between(start, target);
+  const Screw screw = screw_between(start, goal);
   const double rho = screw_radius(screw, transform_from_pose(start) * set.center, set.radius);
   const double travel = screw_path_length(screw, rho);
   const double deviation = kArcShare * tolerance;
@@ -97,7 +98,7 @@ StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& st
 
   Stepper stepper(engine, set, result);
   for (int k = 0; k < cuts; ++k) {
-    const Pose next = pose_between(start, target, (k + 1.0) / cuts);
+    const Pose next = pose_between(start, goal, (k + 1.0) / cuts);
     SweepResult swept = stepper.sweep(next, deviation);
     if (swept.free) {
       stepper.commit(next);
@@ -111,7 +112,7 @@ StepResult step_towards(SweepEngine& engine, const RigidSet& set, const Pose& st
     const double backoff = kBackoffShare * tolerance / (travel / cuts);
     double share = swept.toi - backoff;
     for (int retry = 0; retry < kMaxTouchRetries && share > backoff; ++retry) {
-      const Pose touching = pose_between(start, target, (k + share) / cuts);
+      const Pose touching = pose_between(start, goal, (k + share) / cuts);
       const SweepResult shorter = stepper.sweep(touching, deviation);
       if (shorter.free) {
         stepper.commit(touching);

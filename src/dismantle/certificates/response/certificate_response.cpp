@@ -28,18 +28,19 @@ CertificateResponse::CertificateResponse(CertificateSweeper& sweeper)
     : sweeper_(sweeper), contacts_(sweeper), reach_(std::numeric_limits<double>::infinity()) {}
 
 StepResult CertificateResponse::step(const Pose& target, ResponseKind response) {
+  const Pose goal{target.position, nearer_to(sweeper_.pose().rotation, target.rotation)};
   const Clock::time_point start = Clock::now();
   StepResult result;
   sweeper_.begin_step();
   unfinished_ = undecided_ = false;
   result.pose = sweeper_.pose();
   if (undecided_steps_ == 0 && unfinished_steps_ == 0) resting_ = result.pose;
-  if (result.pose == target) {
+  if (result.pose == goal) {
     result.reached = true;
   } else if (response == ResponseKind::Slide) {
-    slide(target, result);
+    slide(goal, result);
   } else {
-    go(target, response == ResponseKind::Touch, result);
+    go(goal, response == ResponseKind::Touch, result);
   }
   sweeper_.end_step();
   const bool has_moved = sweeper_.motion_to(resting_).path_length > sweeper_.tolerance();
@@ -48,7 +49,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   unfinished_steps_ = has_moved || !unfinished_ ? 0 : unfinished_steps_ + 1;
   unfinished_ &= unfinished_steps_ <= kMaxUnfinishedSteps;
   result.pose = sweeper_.pose();
-  result.reached = result.pose == target;
+  result.reached = result.pose == goal;
   result.unfinished = unfinished_ && !result.reached;
   if (result.reached) result.blocking_pairs.clear();
   result.cost.overlapping_pairs = sweeper_.overlapping_count();
