@@ -7,11 +7,11 @@
 // FOLDERs are searched for the assemblies of the table. Columns of the table: assembly, component (the first of its
 // shape), count (of the components of this shape), kind ("none" for an assembly without fasteners), diameter_mm,
 // length_mm, drive, key. Components of these assemblies that the table does not have are no fasteners.
-#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/fasteners/find_fasteners.h"
 #include "dismantle/files/csv_text.h"
 #include "dismantle/files/read_file.h"
 #include "dismantle/loading/load_assembly.h"
+#include "dismantle/surface/equal_shapes.h"
 
 #include <cmath>
 #include <cstdio>

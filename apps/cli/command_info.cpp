@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/cli/commands.h"
 #include "dismantle/assembly/duplicates.h"
-#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/documents/fastener_json.h"
 #include "dismantle/fasteners/find_fasteners.h"
 #include "dismantle/files/number_text.h"
+#include "dismantle/surface/equal_shapes.h"
 
 #include <fmt/format.h>
 

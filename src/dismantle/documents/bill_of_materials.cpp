@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/documents/bill_of_materials.h"
 
-#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/documents/fastener_json.h"
 #include "dismantle/files/csv_text.h"
 #include "dismantle/files/json_text.h"
+#include "dismantle/surface/equal_shapes.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/export/viewer_model.h"
 
-#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/files/json_text.h"
+#include "dismantle/surface/equal_shapes.h"
 
 namespace dismantle {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/fasteners/find_fasteners.h"
 
-#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/fasteners/fastener_names.h"
 #include "dismantle/fasteners/fastener_shape.h"
 #include "dismantle/fasteners/standard_sizes.h"
@@ -11,10 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <unordered_map>
 
 namespace dismantle {
 
@@ -147,16 +146,13 @@ auto order_of(const Fastener& f) {
 }  // namespace
 
 std::vector<std::optional<Fastener>> find_fasteners(const Assembly& assembly, FastenerEvidence evidence) {
-  const std::vector<ComponentId> firsts = first_of_shape(assembly);
   const std::size_t common = common_beginning(assembly);
-  std::map<ComponentId, std::vector<FastenerShape>> shapes;
+  std::unordered_map<const TriangleMesh*, std::vector<FastenerShape>> shapes;  // their axes are in the mesh's frame
   std::vector<std::optional<Fastener>> found;
   found.reserve(assembly.components.size());
   for (std::uint32_t c = 0; c < assembly.components.size(); ++c) {
     const Component& component = assembly.components[c];
-    // Axes are in the frame of each mesh: other meshes of one shape are read by themselves.
-    const ComponentId first = assembly[firsts[c]].mesh == component.mesh ? firsts[c] : ComponentId(c);
-    const auto [at, is_new] = shapes.try_emplace(first);
+    const auto [at, is_new] = shapes.try_emplace(component.mesh.get());
     if (is_new) at->second = fastener_shapes(*component.mesh);
     const FastenerName name =
         evidence == FastenerEvidence::ShapeAndName

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/plan_disassembly.h"
 
-#include "dismantle/assembly/equal_shapes.h"
 #include "dismantle/core/contract.h"
 #include "dismantle/fasteners/find_fasteners.h"
 #include "dismantle/files/number_text.h"
@@ -17,6 +16,7 @@
 #include "dismantle/planner/search/removal_search.h"
 #include "dismantle/planner/step_margin.h"
 #include "dismantle/planner/step_preference.h"
+#include "dismantle/surface/equal_shapes.h"
 
 #include <algorithm>
 #include <atomic>

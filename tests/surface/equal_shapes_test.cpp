@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dismantle/assembly/equal_shapes.h"
+#include "dismantle/surface/equal_shapes.h"
 
 #include "tests/support/meshes.h"
 
@@ -21,6 +21,18 @@ TEST(EqualShapes, AreThoseOfInstancesAndOfMovedMeshes) {
   };
   EXPECT_EQ(firsts, ids({0, 1, 0, 1, 0}));
   EXPECT_EQ(shape_count(firsts), 2u);
+}
+
+TEST(EqualShapes, OfCadPartsMayBeTessellatedWithOtherVertices) {
+  const TriangleMesh rod = scenes::tube(2, 0, 0, 30, 24, 1), divided = scenes::tube(2, 0, 0, 30, 24, 3);
+  const Pose pose{{40, 5, -3}, normalized(Quat{0.3, -0.2, 0.7, 0.1})};
+  Assembly assembly =
+      scenes::assembly({scenes::component("rod", rod), scenes::component("longer", scenes::tube(2, 0, 0, 30.1, 24, 2)),
+                        scenes::component("copy", scenes::moved(divided, pose))});
+  EXPECT_EQ(first_of_shape(assembly)[2], ComponentId(2)) << "meshes of other vertices are other shapes";
+  assembly.deflection = 0.01;
+  EXPECT_EQ(first_of_shape(assembly)[2], ComponentId(0));
+  EXPECT_EQ(first_of_shape(assembly)[1], ComponentId(1));
 }
 
 TEST(EqualShapes, AreFoundInTimeThatGrowsWithTheNumberOfComponents) {
