@@ -48,6 +48,17 @@ TEST_F(InstructionNamesTest, ShortensLongNamesInTitlesAndNumbersThemInText) {
   EXPECT_EQ(names.in_list(0), longest);
 }
 
+TEST_F(InstructionNamesTest, AddsTheNumberInTextWhereItemsHaveOneName) {
+  name("part", "part#2", "bolt");
+  const InstructionNames names(assembly, bill, {});
+  ASSERT_EQ(bill[1].name, "part");
+  EXPECT_EQ(names.of(ComponentId(0)), "part (item 1)");
+  EXPECT_EQ(names.of(ComponentId(1)), "part#2 (item 2)");
+  EXPECT_EQ(names.of_item(1), "part (item 2)");
+  EXPECT_EQ(names.in_title(ComponentId(1)), "part#2");
+  EXPECT_EQ(names.of(ComponentId(3)), "bolt#2");
+}
+
 TEST_F(InstructionNamesTest, NumbersWhatCannotBeShown) {
   name("\u5438\u7740\u5438", "lid", "\u7740");
   const InstructionNames names(assembly, bill, without_two);

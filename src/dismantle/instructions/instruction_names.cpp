@@ -2,6 +2,8 @@
 #include "dismantle/instructions/instruction_names.h"
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 
 namespace dismantle {
 
@@ -46,6 +48,9 @@ std::string titled(const std::string& name, std::size_t item) {
 InstructionNames::InstructionNames(const Assembly& assembly, const std::vector<BillItem>& bill,
                                    const MissingGlyphs& missing_glyphs)
     : assembly_(assembly), bill_(bill), items_(assembly.components.size()), missing_glyphs_(missing_glyphs) {
+  std::map<std::string_view, std::size_t> counts;
+  for (const BillItem& item : bill) ++counts[item.name];
+  for (const BillItem& item : bill) is_ambiguous_.push_back(counts[item.name] > 1);
   for (std::size_t item = 0; item < bill.size(); ++item) {
     for (const ComponentId c : bill[item].components) items_[c.value] = item;
     if (missing_glyphs_) missing_ += missing_glyphs_(bill[item].name);
@@ -64,9 +69,13 @@ bool InstructionNames::can_show(const std::string& name) const {
   return !missing_glyphs_ || missing_glyphs_(name).empty();
 }
 
+std::string InstructionNames::in_text(const std::string& name, std::size_t item) const {
+  if (is_long(name) || !can_show(name)) return number_of(item);
+  return is_ambiguous_[item] ? name + " (" + number_of(item) + ")" : name;
+}
+
 std::string InstructionNames::of(ComponentId c) const {
-  const std::string& name = assembly_[c].name;
-  return is_long(name) || !can_show(name) ? number_of(items_[c.value]) : name;
+  return in_text(assembly_[c].name, items_[c.value]);
 }
 
 std::string InstructionNames::in_title(ComponentId c) const {
@@ -75,8 +84,7 @@ std::string InstructionNames::in_title(ComponentId c) const {
 }
 
 std::string InstructionNames::of_item(std::size_t item) const {
-  const std::string& name = bill_[item].name;
-  return is_long(name) || !can_show(name) ? number_of(item) : name;
+  return in_text(bill_[item].name, item);
 }
 
 std::string InstructionNames::item_in_title(std::size_t item) const {

@@ -13,13 +13,14 @@ namespace dismantle {
 using MissingGlyphs = std::function<std::string(const std::string&)>;
 
 /// How components and items of the parts list are called in work instructions. Long names, and names with characters
-/// that the document cannot show, are replaced by the number of the item: "item 7".
+/// that the document cannot show, are replaced by the number of the item: "item 7". Where several items have one name,
+/// the number is added in running text: "part (item 7)".
 class InstructionNames {
  public:
   /// The assembly and the bill must outlive this. The bill has a line for every component.
   InstructionNames(const Assembly& assembly, const std::vector<BillItem>& bill, const MissingGlyphs& missing_glyphs);
 
-  /// A component in running text: its name, or "item 7".
+  /// A component in running text: its name, "item 7", or both.
   std::string of(ComponentId c) const;
   /// A component in a title, where a long name is shortened: "a long na... (item 7)".
   std::string in_title(ComponentId c) const;
@@ -36,10 +37,12 @@ class InstructionNames {
 
  private:
   bool can_show(const std::string& name) const;
+  std::string in_text(const std::string& name, std::size_t item) const;
 
   const Assembly& assembly_;
   const std::vector<BillItem>& bill_;
   std::vector<std::size_t> items_;  // of each component
+  std::vector<bool> is_ambiguous_;  // of each item: another one has its name
   MissingGlyphs missing_glyphs_;
   std::string missing_;
 };

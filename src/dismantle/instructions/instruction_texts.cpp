@@ -39,7 +39,8 @@ std::string part_text(const WorkInstructions& instructions, const CountedPart& p
   const std::string item = "item " + std::to_string(part.item + 1);
   const PartsLine& line = instructions.parts[part.item];
   const std::string text = counted_name(instructions, part);
-  return line.label == item ? text : text + " (" + item + ")";
+  const bool has_number = line.label == item || line.label.ends_with("(" + item + ")");
+  return has_number ? text : text + " (" + item + ")";
 }
 
 std::string part_name_text(const PartsLine& line) {

@@ -29,7 +29,7 @@ struct PartsLine {
   std::size_t count = 0;           ///< Number of components.
   Vec3 size;                       ///< Of the bounding box [mm].
   std::vector<std::size_t> steps;  ///< Steps that handle some of them, from 1.
-  std::string label = {};          ///< In running text: the name, or "item 7" if that is long. Empty: the name.
+  std::string label = {};          ///< In running text (InstructionNames::of_item()). Empty: the name.
   std::string fastener = {};       ///< "socket head screw M5x16"; empty if it is none, or its name says its size.
 };
 
