@@ -109,9 +109,9 @@ bool crosses(const AuditReport& audit) {
 /// A blade through a plate without a slot is as deep as half of either: their depth lets it go anywhere.
 class BladeThroughAPlate : public ::testing::Test {
  protected:
-  const TriangleMesh blade_ = scenes::box({-1, -3, -4}, {1, 3, 6});
+  const TriangleMesh blade_ = scenes::box({-1, -5, -4}, {1, 5, 6});
   const TriangleMesh plate_ = scenes::box({-20, -20, 0}, {20, 20, 2});
-  const TriangleMesh strip_ = scenes::box({-20, -2, 0}, {20, 2, 2});
+  const TriangleMesh strip_ = scenes::box({-20, -3, 0}, {20, 3, 2});
 };
 
 TEST_F(BladeThroughAPlate, ComesOutAlongItself) {

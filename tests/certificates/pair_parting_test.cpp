@@ -72,6 +72,22 @@ TEST(PairParting, KeepsTheAllowanceOfAPartInsideAnotherAfterAJump) {
   EXPECT_GE(pose.position.z, -kTolerance);
 }
 
+/// The audit sees two apart from a tenth of the tolerance on, whatever guards them.
+TEST(PairParting, EndsTheAllowanceOfRodsWithoutGhostsThatAreHardlyApart) {
+  const TriangleMesh rod = scenes::tube(1, 0, -10, 10, 12);
+  const Assembly assembly = scenes::assembly(
+      {scenes::component("rod", rod),
+       scenes::component("across", scenes::moved(rod, {{0.2, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)}))});
+  const PairStates states = states_of(assembly);
+  for (const ResponseKind response : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide}) {
+    Grabbed moving(assembly, states, 0);
+    ASSERT_TRUE(moving.engine.step({{-1.8 - 0.3 * kTolerance, 0, 0}, {}}, response).reached);
+    EXPECT_TRUE(moving.engine.overlapping_pairs().empty());
+    moving.engine.step({}, response);
+    EXPECT_LE(moving.engine.poses()[0].position.x, -1.8 + kTolerance);
+  }
+}
+
 /// Rods without ghosts: they part across both axes, and have the tolerance from then on.
 TEST(PairParting, LetsRodsThatCrossPartAndNotCrossAgain) {
   const TriangleMesh rod = scenes::tube(1, 0, -10, 10, 12);

@@ -39,8 +39,9 @@ struct AuditOptions {
 ///   3. Components that bound no volume (sheets) have no inside. Where one component of a pair is a sheet, or thinner
 ///      than four tolerances, points of both surfaces are followed in time: none goes through the other surface by more
 ///      than the allowance plus the slack (AuditViolationKind::Crossing). What passes between these points is not seen.
-///      The same holds for pairs that overlap in the assembled state, where a component has walls thinner than twice
-///      the allowance, for points that are not within the allowance there, but for holes (docs/design/0011-audit.md).
+///      For pairs that overlap in the assembled state, where a component has walls thinner than twice the allowance,
+///      points that are not within the allowance there are followed, and go through by no more than twice the
+///      allowance plus the slack, but for holes (docs/design/0011-audit.md).
 /// It shares no collision code with what makes paths.
 AuditReport audit_path(const Assembly& assembly, const Path& path, const AuditOptions& options = {});
 

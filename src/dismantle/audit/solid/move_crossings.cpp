@@ -8,6 +8,10 @@ namespace {
 /// Parts of a solid that are thinner than this part of the depth of a pair need not be found when its hole is cut out.
 constexpr double kFinestCut = 0.25;
 
+/// Points go through the surfaces of an overlapping pair where their ghosts are further away than so many times its
+/// allowance: a ghost has to get round a corner that its point is deep in.
+constexpr double kAroundCorners = 2;
+
 /// One side of a pair: points of one component in the frame of the other.
 struct Side {
   std::size_t pair = 0;              ///< Index of the pair.
@@ -44,13 +48,15 @@ FollowedSide follow_side(DepthContext& context, const MovePair& pair, std::uint3
   const double size = std::min(body.surface().node(0).radius, other.surface().node(0).radius);
   const double spacing = 2 * kFollowedSpacing * size, tolerance = context.path.tolerance;
   FollowedSide side;
-  if (!needs_crossing_test(body, other, tolerance)) {
-    if (!is_joined(context, pair) || !context.walls.has_thin_wall(other, 2 * pair.allowed, spacing)) return side;
+  side.until_apart = !needs_crossing_test(body, other, tolerance);
+  const bool joined = is_joined(context, pair);
+  if (side.until_apart && !(joined && context.walls.has_thin_wall(other, 2 * pair.allowed, spacing))) return side;
+  if (joined && body.solid() && other.solid()) {
     const double depth = context.ledger.at(pair.key()).pair.initial_depth;
-    side.hole.emplace(other, body, std::max(tolerance, kFinestCut * depth), context.walls);
+    side.hole.emplace(other, body, pair.allowed, std::max(tolerance, kFinestCut * depth), context.walls);
   }
   side.points = followed_points(body.surface(), spacing);
-  if (side.hole) {
+  if (side.until_apart) {
     // Points that are near in the assembled state may leave to any side.
     const Vec3 there = body.surface().center() - other.surface().center();
     std::erase_if(side.points, [&](const FollowedPoint& point) {
@@ -94,11 +100,16 @@ std::vector<Side> find_sides(DepthContext& context, const MovePairs& move) {
       const std::pair points_surface = of_b ? std::pair{pair.b, pair.a} : std::pair{pair.a, pair.b};
       const auto side = context.followed.find(points_surface);
       if (side == context.followed.end() || side->second.points.empty()) continue;
-      if (side->second.hole && !pair.joined) continue;
+      if (side->second.until_apart && !pair.joined) continue;
       sides.push_back({i, of_b, &side->second, {}});
     }
   }
   return sides;
+}
+
+/// How far points of a side may be from their ghosts before the pair is apart [mm].
+double allowed_of(const Side& side, const MovePair& pair) {
+  return side.followed->hole && pair.joined ? kAroundCorners * pair.allowed : pair.allowed;
 }
 
 }  // namespace
@@ -111,19 +122,19 @@ bool check_move_crossings(DepthContext& context, const MovePairs& move, double p
     const MovePair& pair = move.pairs[side.pair];
     std::vector<RelativeMotion> motions = pair.pair.motion.motions;
     if (!side.of_b) std::transform(motions.begin(), motions.end(), motions.begin(), reversed_roles);
-    std::vector<double> allowed(motions.size(), pair.allowed);
+    std::vector<double> allowed(motions.size(), allowed_of(side, pair));
     std::fill(allowed.begin() + std::min<std::ptrdiff_t>(pair.parted, std::ptrdiff_t(allowed.size())), allowed.end(),
               context.path.tolerance);
     const SolidBody& surface = side.of_b ? *pair.pair.a : *pair.pair.b;
-    const Hole* const hole = side.followed->hole ? &*side.followed->hole : nullptr;
-    if (hole) motions.resize(std::min<std::size_t>(pair.parted, motions.size()));  // solids cannot be passed then
+    const Hole* const hole = side.followed->hole && pair.joined ? &*side.followed->hole : nullptr;
+    if (side.followed->until_apart) motions.resize(std::min<std::size_t>(pair.parted, motions.size()));
     side.crossing = follow_points(surface.surface(), side.followed->points,
-                                  {motions, allowed, context.slack, pair.pair.motion.rounding, hole});
+                                  {motions, allowed, context.slack, pair.pair.motion.rounding, hole, pair.parted});
   });
   for (const Side& side : sides) {
     if (side.crossing.beyond == 0) continue;
     const MovePair& pair = move.pairs[side.pair];
-    const double allowed = side.crossing.segment < pair.parted ? pair.allowed : context.path.tolerance;
+    const double allowed = side.crossing.segment < pair.parted ? allowed_of(side, pair) : context.path.tolerance;
     enter_violation(context, move, pair, violation_of(move, side, allowed));
   }
   return completed;

@@ -30,6 +30,7 @@ class PointFollower {
   Crossing follow(Vec3 body, std::uint32_t segment) {
     const RelativeMotion& motion = rule_.motions[segment];
     const double allowed = rule_.allowed[segment];
+    const Hole* const hole = segment < rule_.hole_until ? rule_.hole : nullptr;
     Vec3 now = motion.at(0) * body;
     const double speed = length(motion.velocity(now));
     const double bend = motion.screw.angle > 0 ? motion.acceleration(motion.velocity(now)) / 8 : 0;
@@ -37,7 +38,7 @@ class PointFollower {
     for (double s = 0; s < 1;) {
       const double step = std::min({longest, 1 - s, begin_step(now, {segment, s}, allowed, speed)});
       const double shortest = speed > 0 ? kStep * allowed / speed : 1;
-      s = advance(motion, body, {s, step, shortest, allowed}, now);
+      s = advance(motion, body, {s, step, shortest, allowed, hole}, now);
       const double beyond = ghost_ ? length(now - *ghost_) : 0;
       if (beyond > allowed + rule_.slack && !find_offset(body, {segment, s})) return {beyond, segment, s, now};
       if (speed == 0) break;
@@ -52,6 +53,7 @@ class PointFollower {
   };
   struct Step {
     double from, length, shortest, allowed;
+    const Hole* hole;  // null for none
   };
 
   /// Starts or ends the ghost at a point. @return a time in which the point needs none
@@ -91,7 +93,7 @@ class PointFollower {
     ghost.approach(next);
     ghost_ = ghost.position();
     now = next;
-    if (length(now - *ghost_) > step.allowed / 2 && is_in_hole(now, step.allowed)) {
+    if (step.hole && length(now - *ghost_) > step.allowed / 2 && is_in(*step.hole, now)) {
       ghost_.reset();
       has_been_clear_ = false;
     }
@@ -99,9 +101,7 @@ class PointFollower {
   }
 
   /// True if the point or its ghost is in a hole, so that both sides are free.
-  bool is_in_hole(Vec3 now, double allowed) {
-    return rule_.hole && (rule_.hole->has(now, allowed) || rule_.hole->has(*ghost_, allowed));
-  }
+  bool is_in(const Hole& hole, Vec3 now) const { return hole.has(now) || hole.has(*ghost_); }
 
   /// Looks for another ghost, one that keeps its offset from the point in the point's body since the first ghost began
   /// in this move; the one that comes as near as it can may be held back behind a corner.
@@ -202,10 +202,10 @@ std::vector<FollowedPoint> followed_points(const AuditBody& body, double spacing
   return followed;
 }
 
-bool Hole::has(Vec3 point, double margin) const {
+bool Hole::has(Vec3 point) const {
   const Vec3 there = point + (solid_->surface().center() - other_->surface().center());
-  if (other_->surface().distance_from_box(there) > margin) return false;
-  if (!other_->surface().face_within(there, margin) && !other_->inside(there)) return false;
+  if (other_->surface().distance_from_box(there) > margin_) return false;
+  if (!other_->surface().face_within(there, margin_) && !other_->inside(there)) return false;
   return known_->has_hole(*solid_, *other_, finest_);
 }
 

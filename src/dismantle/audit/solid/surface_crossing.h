@@ -37,15 +37,16 @@ void visit_points_of_faces(const AuditBody& body, double spacing,
 /// makes room for one in the other: where one would stay in one piece with such a hole, points in it are free.
 class Hole {
  public:
-  /// @param finest parts that are thinner may be taken for connected [mm] @param known must outlive this
-  Hole(const SolidBody& solid, const SolidBody& other, double finest, KnownWalls& known)
-      : solid_(&solid), other_(&other), finest_(finest), known_(&known) {}
-  /// True if the solid has a hole, and a point [mm, its frame] is in it or within `margin` of it [mm].
-  bool has(Vec3 point, double margin) const;
+  /// @param margin by which the hole is wider than the other solid [mm] @param finest parts that are thinner may be
+  /// taken for connected [mm] @param known must outlive this
+  Hole(const SolidBody& solid, const SolidBody& other, double margin, double finest, KnownWalls& known)
+      : solid_(&solid), other_(&other), margin_(margin), finest_(finest), known_(&known) {}
+  /// True if the solid has a hole, and a point [mm, its frame] is in it.
+  bool has(Vec3 point) const;
 
  private:
   const SolidBody *solid_, *other_;
-  double finest_;
+  double margin_, finest_;
   KnownWalls* known_;
 };
 
@@ -53,6 +54,7 @@ class Hole {
 struct FollowedSide {
   std::vector<FollowedPoint> points;  ///< None where nothing is followed.
   std::optional<Hole> hole;           ///< Of solids that overlap in the assembled state.
+  bool until_apart = false;           ///< Once the pair has been apart, its depth tells what passes through.
 };
 
 /// A point that went through a surface.
@@ -70,6 +72,7 @@ struct CrossingRule {
   double slack = 0;                    ///< Violated where it is more than this above it [mm].
   double rounding = 0;                 ///< Error bound of a distance [mm].
   const Hole* hole = nullptr;          ///< Where points are free; null for none.
+  std::uint32_t hole_until = 0;        ///< The segments before this one have the hole.
 };
 
 /// Follows points through a move and finds the first in time that goes through the surface. Each point is followed by a

@@ -129,6 +129,10 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
     const double far_allowed = pair.declared > 0 ? found.guard.allowed : tolerance;
     const BoundedSide a{*trees(pair.a).solid, shapes.of(pair.a)}, b{*trees(pair.b).solid, shapes.of(pair.b)};
     limit_far_points(found.guard, a, b, far_allowed, pair.depth, tolerance);
+    // Walls of both are thicker than the displacements of usual ghosts, which are on the sides of their faces then.
+    const double displaced = kGhostLength * tolerance;
+    if (a.shape.thin_places(displaced).none() && b.shape.thin_places(displaced).none())
+      found.guard.parting = kApartShare * tolerance;
     found.shapes = {shapes.shared(pair.a), shapes.shared(pair.b)};
   });
   std::vector<FoundGuard> found;
