@@ -72,12 +72,17 @@ TEST(PairParting, KeepsTheAllowanceOfAPartInsideAnotherAfterAJump) {
   EXPECT_GE(pose.position.z, -kTolerance);
 }
 
-/// The audit sees two apart from a tenth of the tolerance on, whatever guards them.
-TEST(PairParting, EndsTheAllowanceOfRodsWithoutGhostsThatAreHardlyApart) {
+/// Two rods, for which there are no ghosts; the first parts from the other one at x = -1.8.
+Assembly crossing_rods() {
   const TriangleMesh rod = scenes::tube(1, 0, -10, 10, 12);
-  const Assembly assembly = scenes::assembly(
+  return scenes::assembly(
       {scenes::component("rod", rod),
        scenes::component("across", scenes::moved(rod, {{0.2, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)}))});
+}
+
+/// The audit sees two apart from a tenth of the tolerance on, whatever guards them.
+TEST(PairParting, EndsTheAllowanceOfRodsWithoutGhostsThatAreHardlyApart) {
+  const Assembly assembly = crossing_rods();
   const PairStates states = states_of(assembly);
   for (const ResponseKind response : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide}) {
     Grabbed moving(assembly, states, 0);
@@ -90,10 +95,7 @@ TEST(PairParting, EndsTheAllowanceOfRodsWithoutGhostsThatAreHardlyApart) {
 
 /// Rods without ghosts: they part across both axes, and have the tolerance from then on.
 TEST(PairParting, LetsRodsThatCrossPartAndNotCrossAgain) {
-  const TriangleMesh rod = scenes::tube(1, 0, -10, 10, 12);
-  const Assembly assembly = scenes::assembly(
-      {scenes::component("rod", rod),
-       scenes::component("across", scenes::moved(rod, {{0.2, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)}))});
+  const Assembly assembly = crossing_rods();
   const PairStates states = states_of(assembly);
   for (const ResponseKind response : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide}) {
     Grabbed moving(assembly, states, 0);
