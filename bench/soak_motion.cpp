@@ -57,7 +57,7 @@ struct Loaded {
   double weight = 0;  // of its share of the steps
 };
 
-/// What the batches of an assembly share.
+/// Data shared by all batches of an assembly.
 struct Prepared {
   PairStates states;
   PathAuditor auditor;

@@ -80,7 +80,7 @@ Assembly crossing_rods() {
        scenes::component("across", scenes::moved(rod, {{0.2, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)}))});
 }
 
-/// The audit sees two apart from a tenth of the tolerance on, whatever guards them.
+/// The audit ends an allowance where two components are a tenth of the tolerance apart, so the engine must, too.
 TEST(PairParting, EndsTheAllowanceOfRodsWithoutGhostsThatAreHardlyApart) {
   const Assembly assembly = crossing_rods();
   const PairStates states = states_of(assembly);

@@ -72,12 +72,6 @@ class VertexGrid {
   std::unordered_multimap<std::uint64_t, std::uint32_t> cells_;
 };
 
-/// The right-handed frame of two vectors, as the rows of a matrix.
-Mat3 frame_of(Vec3 first, Vec3 second) {
-  const Vec3 x = normalized(first), z = normalized(cross(first, second));
-  return {{x, cross(z, x), z}};
-}
-
 /// The indices whose distances from the center are within `play` of one.
 std::vector<std::uint32_t> at_distance(Span<const double> distances, double wanted, double play) {
   std::vector<std::uint32_t> found;

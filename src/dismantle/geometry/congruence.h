@@ -29,6 +29,13 @@ struct MeshInvariants {
   std::vector<double> distances;  ///< Of the vertices from the center, ascending [mm].
 };
 
+/// The right-handed orthonormal frame of two vectors that are not parallel, as the rows of a matrix: x along `first`, y
+/// on the side of `second`.
+inline Mat3 frame_of(Vec3 first, Vec3 second) {
+  const Vec3 x = normalized(first), z = normalized(cross(first, second));
+  return {{x, cross(z, x), z}};
+}
+
 /// Measures a mesh.
 MeshInvariants mesh_invariants(const TriangleMesh& mesh);
 

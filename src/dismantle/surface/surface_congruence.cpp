@@ -2,6 +2,7 @@
 #include "dismantle/surface/surface_congruence.h"
 
 #include "dismantle/core/span.h"
+#include "dismantle/geometry/congruence.h"
 #include "dismantle/geometry/triangle.h"
 
 #include <algorithm>
@@ -16,15 +17,9 @@ namespace {
 
 /// Two vertices span no smaller triangle with the centroid, relative to the square of the distance of the first.
 constexpr double kMinSine = 1e-3;
-/// Motions that are tried at most, and vertices that are looked at before all are.
+/// Largest number of candidate motions, and number of vertices that are tested before all the others.
 constexpr int kMaxMotions = 5000;
 constexpr std::size_t kFirstLook = 24;
-
-/// The right-handed frame of two vectors, as the rows of a matrix.
-Mat3 frame_of(Vec3 first, Vec3 second) {
-  const Vec3 x = normalized(first), z = normalized(cross(first, second));
-  return {{x, cross(z, x), z}};
-}
 
 /// True if a motion takes each vertex to within a distance of a surface.
 bool lies_on(const TriangleMesh& mesh, const RigidTransform& motion, const SurfaceTree& surface, double within) {

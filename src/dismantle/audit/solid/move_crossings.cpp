@@ -42,7 +42,7 @@ bool is_joined(const DepthContext& context, const MovePair& pair) {
   return pair.joined && context.ledger.at(pair.key()).pair.state == PathPairState::Overlapping;
 }
 
-/// What is followed of one side of a pair, from the first move on in which it is needed.
+/// The points to follow on one side of a pair, and the hole for them; empty where its depth tells enough.
 FollowedSide follow_side(DepthContext& context, const MovePair& pair, std::uint32_t points, std::uint32_t surface) {
   const SolidBody &body = *context.bodies[points], &other = *context.bodies[surface];
   const double size = std::min(body.surface().node(0).radius, other.surface().node(0).radius);

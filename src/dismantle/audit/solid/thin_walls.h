@@ -20,8 +20,8 @@ bool has_thin_wall(const SolidBody& solid, double thickness, double spacing);
 /// connected.
 bool stays_in_one_piece(const SolidBody& solid, const SolidBody& cutter, double finest);
 
-/// What is known of the walls and holes of the solids of an assembly, for all audits of it: the functions above, each
-/// called once for the same arguments. Several threads may ask.
+/// A cache of has_thin_wall() and stays_in_one_piece() for the solids of an assembly, shared by all its audits. Safe
+/// for concurrent use.
 class KnownWalls {
  public:
   /// See has_thin_wall().
