@@ -93,6 +93,24 @@ TEST(PairParting, EndsTheAllowanceOfRodsWithoutGhostsThatAreHardlyApart) {
   }
 }
 
+/// The ghost of a foil may be on the far side of what the foil touches, but no ghost of a thick block gets past its
+/// middle.
+TEST(PairParting, EndsTheAllowanceOfAFoilThatIsHardlyOffItsBlock) {
+  const double depth = 4 * kTolerance;
+  const Assembly assembly =
+      scenes::assembly({scenes::component("foil", scenes::box({-5, -5, -depth}, {5, 5, kTolerance})),
+                        scenes::component("block", scenes::box({-20, -20, -5}, {20, 20, 0}))});
+  const PairStates states = states_of(assembly);
+  for (const ResponseKind response : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide}) {
+    Grabbed foil(assembly, states, 0);
+    EXPECT_EQ(foil.engine.overlapping_pairs().size(), 1u);
+    ASSERT_TRUE(foil.engine.step({{0, 0, depth + 0.3 * kTolerance}, {}}, response).reached);
+    EXPECT_TRUE(foil.engine.overlapping_pairs().empty());
+    foil.engine.step({}, response);
+    EXPECT_GE(foil.engine.poses()[0].position.z, depth - kTolerance);
+  }
+}
+
 /// Rods without ghosts: they part across both axes, and have the tolerance from then on.
 TEST(PairParting, LetsRodsThatCrossPartAndNotCrossAgain) {
   const Assembly assembly = crossing_rods();

@@ -6,6 +6,7 @@
 #include "dismantle/surface/solid_distance.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -43,11 +44,12 @@ class Shapes {
 };
 
 /// The guard of a pair for which ghosts were searched; nothing where it needs none.
-std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance) {
+/// @param is_thick if one of the two is a solid without walls thinner than twice a length [mm]
+std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance,
+                                   const std::function<bool(double)>& is_thick) {
   FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, {}, {}, kGhostLength * tolerance}, {}, {}};
   GuardedPair& guard = result.guard;
-  // Thin parts and sheets may have passed the other component by less than their allowance.
-  guard.parting = (found && found->retracted ? kApartShare : 1) * tolerance;
+  guard.parting = tolerance;
   if (!found) {
     guard.guard = PairGuard::Depth;
     guard.allowed = std::max(guard.allowed, pair.depth + tolerance);
@@ -55,7 +57,12 @@ std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<Pair
   }
   if (found->max_length == 0) return std::nullopt;
   guard.displaced = found->max_length;
-  if (found->turning > 0) guard.parting = guard.allowed = std::max(guard.allowed, found->turning + tolerance);
+  if (found->turning > 0)
+    guard.parting = guard.allowed = std::max(guard.allowed, found->turning + tolerance);
+  else if (found->retracted || is_thick(found->max_length))
+    // Thin parts and sheets may have passed each other by less than their allowance, but not the middle of a wall that
+    // no displacement gets past.
+    guard.parting = kApartShare * tolerance;
   result.ghosts = std::move(found->vertices);
   return result;
 }
@@ -123,7 +130,13 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
     // Corners of ghosts could not be displaced by as much as is declared.
     const bool stopped = search.keep_going && !search.keep_going();
     const bool by_depth = solids && (pair.declared > 0 || stopped);
-    guards[i] = guard_of(pair, by_depth ? std::nullopt : find_pair_ghosts(request), tolerance);
+    const auto is_thick = [&](double length) {
+      const auto has_no_thin_place = [&](ComponentId c) {
+        return trees(c).solid->has_outside && ThinPlaces(shapes.of(c), length).none();
+      };
+      return has_no_thin_place(pair.b) || has_no_thin_place(pair.a);
+    };
+    guards[i] = guard_of(pair, by_depth ? std::nullopt : find_pair_ghosts(request), tolerance, is_thick);
     if (!guards[i] || guards[i]->guard.guard != PairGuard::Depth) return;
     FoundGuard& found = *guards[i];
     const double far_allowed = pair.declared > 0 ? found.guard.allowed : tolerance;

@@ -38,8 +38,9 @@ struct GuardedPair {
 };
 
 /// Solids that are further apart than this share of the tolerance have been apart, a bit less than the audit's tenth;
-/// sheets, thin parts and pairs without ghosts where they are further apart than the tolerance. Cylinders that turn in
-/// each other have to be further apart than their allowance, as facets that happen to be apart meet again.
+/// two thin parts or sheets, and thin parts whose depth is bounded, where they are further apart than the tolerance.
+/// Cylinders that turn in each other have to be further apart than their allowance, as facets that happen to be apart
+/// meet again.
 inline constexpr double kApartShare = 0.08;
 
 /// The limits of a pair whose depth is bounded, less the share of the tolerance that arcs have, which is kept for
