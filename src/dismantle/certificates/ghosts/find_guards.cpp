@@ -44,9 +44,9 @@ class Shapes {
 };
 
 /// The guard of a pair for which ghosts were searched; nothing where it needs none.
-/// @param is_thick if one of the two is a solid without walls thinner than twice a length [mm]
+/// @param one_is_thick true if one of the two is a solid without walls thinner than twice a length [mm]
 std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance,
-                                   const std::function<bool(double)>& is_thick) {
+                                   const std::function<bool(double)>& one_is_thick) {
   FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, {}, {}, kGhostLength * tolerance}, {}, {}};
   GuardedPair& guard = result.guard;
   guard.parting = tolerance;
@@ -59,7 +59,7 @@ std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<Pair
   guard.displaced = found->max_length;
   if (found->turning > 0)
     guard.parting = guard.allowed = std::max(guard.allowed, found->turning + tolerance);
-  else if (found->retracted || is_thick(found->max_length))
+  else if (found->retracted || one_is_thick(found->max_length))
     // Thin parts and sheets may have passed each other by less than their allowance, but not the middle of a wall that
     // no displacement gets past.
     guard.parting = kApartShare * tolerance;
@@ -130,13 +130,14 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
     // Corners of ghosts could not be displaced by as much as is declared.
     const bool stopped = search.keep_going && !search.keep_going();
     const bool by_depth = solids && (pair.declared > 0 || stopped);
-    const auto is_thick = [&](double length) {
+    const auto one_is_thick = [&](double length) {
+      // Not kept with the shape: each pair has a length of its own.
       const auto has_no_thin_place = [&](ComponentId c) {
         return trees(c).solid->has_outside && ThinPlaces(shapes.of(c), length).none();
       };
       return has_no_thin_place(pair.b) || has_no_thin_place(pair.a);
     };
-    guards[i] = guard_of(pair, by_depth ? std::nullopt : find_pair_ghosts(request), tolerance, is_thick);
+    guards[i] = guard_of(pair, by_depth ? std::nullopt : find_pair_ghosts(request), tolerance, one_is_thick);
     if (!guards[i] || guards[i]->guard.guard != PairGuard::Depth) return;
     FoundGuard& found = *guards[i];
     const double far_allowed = pair.declared > 0 ? found.guard.allowed : tolerance;
