@@ -15,7 +15,7 @@ interface TestedPage {
 
 /// Queries for tests, and a promise to wait for instead of sleeping. Changes nothing.
 export interface TestApi<Page extends TestedPage = App> {
-  /// Resolves when all commands are answered, shown and drawn.
+  /// Resolves when all commands are answered, shown and drawn; rejects after a time with what is not.
   idle(): Promise<void>;
   /// Matrix from assembled to drawn position of the component called `name`, by columns.
   drawnMatrix(name: string): number[];
@@ -35,6 +35,8 @@ export interface TestApi<Page extends TestedPage = App> {
 }
 
 const kGridSize = 60;
+/// The page is to be idle within this time, on a loaded machine, too [ms].
+const kMaxWait = 90_000;
 
 /// Makes the test interface of a page.
 export function testApi<Page extends TestedPage>(app: Page): TestApi<Page> {
@@ -110,10 +112,18 @@ export function testApi<Page extends TestedPage>(app: Page): TestApi<Page> {
 }
 
 async function waitUntilIdle(app: TestedPage): Promise<void> {
-  const settled = () =>
-    app.session.settled && app.viewport.settled && app.session.store.link === "open" && !app.drag.pending;
+  const limit = performance.now() + kMaxWait;
+  const unsettled = () =>
+    Object.entries({
+      "a command or an action": !app.session.settled,
+      "a frame of the view": !app.viewport.settled,
+      "the connection": app.session.store.link !== "open",
+      "the target of a drag": app.drag.pending,
+    }).flatMap(([what, pending]) => (pending ? [what] : []));
   for (let calm = 0; calm < 3; ) {
     await new Promise((resolve) => requestAnimationFrame(resolve));
-    calm = settled() ? calm + 1 : 0;
+    const pending = unsettled();
+    calm = pending.length === 0 ? calm + 1 : 0;
+    if (performance.now() > limit) throw new Error(`the page is not idle: ${pending.join(", ") || "frames take long"}`);
   }
 }

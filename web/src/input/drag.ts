@@ -167,8 +167,10 @@ export class Drag {
   private beforeRender(): boolean {
     if (!this.motion) return false;
     if (this.unsent && this.grip !== null) {
-      this.unsent = false;
-      this.session.connection.sendStruct(targetMessage(this.grip, ++this.number, this.motion.target()));
+      const sent = this.session.connection.sendStruct(targetMessage(this.grip, this.number + 1, this.motion.target()));
+      if (sent) ++this.number;
+      else this.session.viewport.requestFrame(); // it may be the last target: it is sent when the connection has caught up
+      this.unsent = !sent;
     }
     this.showGhost();
     return false;

@@ -54,7 +54,7 @@ export class PathPlayer implements Transport {
   }
 
   reconnect(): void {}
-  sendStruct(): void {}
+  sendStruct = () => true;
 
   on<Name extends keyof Events>(name: Name, listener: Listener<Events[Name]>): void {
     this.listeners.on(name, listener);

@@ -39,10 +39,10 @@ export class StatusLine {
     this.session.connection
       .command("metrics", {})
       .then(
-        (metrics) =>
-          this.session.change(() => {
-            this.session.store.metrics = metrics;
-          }),
+        (metrics) => {
+          this.session.store.metrics = metrics;
+          this.session.notifier.notifyPanels();
+        },
         () => {},
       )
       .finally(() => {

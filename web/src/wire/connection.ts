@@ -17,6 +17,8 @@ type Listener<T> = (value: T) => void;
 
 const kMinRetryDelay = 200;
 const kMaxRetryDelay = 2000;
+/// A connection with as much as this unsent is congested.
+const kMaxUnsentBytes = 4096;
 
 /// The connection of a session to the server, or to its substitute in an exported page.
 export interface Transport {
@@ -32,8 +34,8 @@ export interface Transport {
   on<Name extends keyof Events>(name: Name, listener: Listener<Events[Name]>): void;
   /// Sends a command. Rejects with the server's message if it is refused.
   command<Name extends keyof Commands>(name: Name, members: Commands[Name][0]): Promise<Commands[Name][1]>;
-  /// Sends a struct. Dropped if the connection is lost or congested: a newer one follows.
-  sendStruct(bytes: ArrayBuffer): void;
+  /// Sends a struct. Returns false, and sends nothing, if the connection is lost or congested.
+  sendStruct(bytes: ArrayBuffer): boolean;
   /// Requests an address under /api/. Resolves with the complete response.
   request(address: string, options?: { method?: string; body?: Blob }): Promise<globalThis.Response>;
 }
@@ -97,8 +99,10 @@ export class Connection implements Transport {
     });
   }
 
-  sendStruct(bytes: ArrayBuffer): void {
-    if (this.socket?.readyState === WebSocket.OPEN && this.socket.bufferedAmount < 4096) this.socket.send(bytes);
+  sendStruct(bytes: ArrayBuffer): boolean {
+    if (this.socket?.readyState !== WebSocket.OPEN || this.socket.bufferedAmount >= kMaxUnsentBytes) return false;
+    this.socket.send(bytes);
+    return true;
   }
 
   async request(address: string, options: { method?: string; body?: Blob } = {}): Promise<globalThis.Response> {

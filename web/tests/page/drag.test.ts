@@ -133,7 +133,7 @@ test("a render sends at most one target, the newest; the grabbed point stays und
       const send = connection.sendStruct.bind(connection);
       connection.sendStruct = (bytes) => {
         ++sent;
-        send(bytes);
+        return send(bytes);
       };
       const count = () => ++pictures;
       viewport.afterRender.add(count);
@@ -150,6 +150,40 @@ test("a render sends at most one target, the newest; the grabbed point stays und
   );
   assert.ok(counted.sent >= 1 && counted.sent <= counted.pictures && counted.sent < 10, JSON.stringify(counted));
   assert.ok(Math.hypot(counted.point.x - x - 50, counted.point.y - y) < 1, `${JSON.stringify(counted)} ${x} ${y}`);
+  await viewer.press("Escape");
+  await viewer.release();
+});
+
+test("the last target is sent although the connection was congested when it was made", async () => {
+  const start = await viewer.drawnShift(kSlide);
+  await viewer.page.evaluate(() => {
+    const { connection } = window.dismantle!.app.session;
+    const send = connection.sendStruct.bind(connection);
+    let refused = 0;
+    connection.sendStruct = () => {
+      if (++refused === 5) connection.sendStruct = send;
+      return false;
+    };
+  });
+  await viewer.grab(kSlide, 80, 0, 1);
+  const pulled = await viewer.drawnShift(kSlide);
+  assert.ok(pulled[0] - start[0] > 10, `${start} ${pulled}`);
+  await viewer.press("Escape");
+  await viewer.release();
+});
+
+test("while a component is held still, nothing is drawn anew", async () => {
+  await viewer.grab(kSlide, 60, 0);
+  const renders = await viewer.page.evaluate(async () => {
+    const { viewport } = window.dismantle!.app;
+    let counted = 0;
+    const count = () => ++counted;
+    viewport.afterRender.add(count);
+    await new Promise((resolve) => setTimeout(resolve, 2500)); // the metrics are asked for twice
+    viewport.afterRender.delete(count);
+    return counted;
+  });
+  assert.equal(renders, 0);
   await viewer.press("Escape");
   await viewer.release();
 });
