@@ -4,6 +4,8 @@
 #include "dismantle/geometry/half_edges.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace dismantle {
 
@@ -17,8 +19,6 @@ struct Rim {
 /// Largest distance between the two sides of a crack, relative to the mesh's diagonal: as rounded coordinates and
 /// missing slivers leave it.
 constexpr double kCrackWidth = 1e-4;
-/// Rims that are compared, at most; all of more count as open.
-constexpr std::size_t kMaxRims = 20000;
 
 double distance_to_segment(Vec3 p, const Rim& rim) {
   const Vec3 along = rim.to - rim.from;
@@ -26,23 +26,67 @@ double distance_to_segment(Vec3 p, const Rim& rim) {
   return length(p - (rim.from + t * along));
 }
 
-/// The number of rims that no others run along in the opposite direction.
-std::size_t count_open(std::vector<Rim> rims, double width) {
-  if (rims.size() > kMaxRims) return rims.size();
-  const auto lowest = [](const Rim& r) { return std::min(r.from.x, r.to.x); };
-  const auto highest = [](const Rim& r) { return std::max(r.from.x, r.to.x); };
-  std::sort(rims.begin(), rims.end(), [&](const Rim& a, const Rim& b) { return lowest(a) < lowest(b); });
-  double longest = 0;
-  for (const Rim& r : rims) longest = std::max(longest, highest(r) - lowest(r));
-  const auto covered = [&](const Rim& rim, Vec3 p) {
-    auto other = std::lower_bound(rims.begin(), rims.end(), p.x - longest - width,
-                                  [&](const Rim& r, double x) { return lowest(r) < x; });
-    for (; other != rims.end() && lowest(*other) <= p.x + width; ++other)
-      if (dot(other->to - other->from, rim.to - rim.from) < 0 && distance_to_segment(p, *other) <= width) return true;
+/// The cells of a grid that rims pass through or near.
+class RimGrid {
+ public:
+  /// @param width finds the rims within this of a point
+  RimGrid(Span<const Rim> rims, const Aabb& box, double width) : rims_(rims), lower_(box.lower), width_(width) {
+    double whole = 0;
+    for (const Rim& rim : rims) whole += length(rim.to - rim.from);
+    cell_ = std::max(2 * whole / static_cast<double>(rims.size()), 2 * width);
+    for (std::uint32_t i = 0; i < rims.size(); ++i) enter(i);
+    std::sort(entries_.begin(), entries_.end());
+    entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
+  }
+
+  /// True if a point lies within the width of another rim that runs against one.
+  bool is_covered(const Rim& rim, const Vec3& p) const {
+    const std::uint64_t cell = key(index(p.x - lower_.x), index(p.y - lower_.y), index(p.z - lower_.z));
+    auto entry = std::lower_bound(entries_.begin(), entries_.end(), Entry{cell, 0});
+    for (; entry != entries_.end() && entry->first == cell; ++entry) {
+      const Rim& other = rims_[entry->second];
+      if (dot(other.to - other.from, rim.to - rim.from) < 0 && distance_to_segment(p, other) <= width_) return true;
+    }
     return false;
-  };
-  return static_cast<std::size_t>(std::count_if(rims.begin(), rims.end(), [&](const Rim& rim) {
-    return !covered(rim, rim.from) || !covered(rim, 0.5 * (rim.from + rim.to)) || !covered(rim, rim.to);
+  }
+
+ private:
+  using Entry = std::pair<std::uint64_t, std::uint32_t>;  // cell, rim
+
+  /// Cell along one axis. Cells are no smaller than a width, so that there are fewer than 2^20 of them.
+  std::uint64_t index(double offset) const {
+    return static_cast<std::uint64_t>(std::max(0.0, std::floor(offset / cell_)));
+  }
+  static std::uint64_t key(std::uint64_t x, std::uint64_t y, std::uint64_t z) { return x << 40 | y << 20 | z; }
+
+  /// Enters a rim by pieces no longer than a cell.
+  void enter(std::uint32_t rim) {
+    const Vec3 from = rims_[rim].from, along = rims_[rim].to - from;
+    const int pieces = 1 + static_cast<int>(length(along) / cell_);
+    const double reach = width_ * (1 + 1e-6);  // beyond rounding
+    for (int piece = 0; piece < pieces; ++piece) {
+      Aabb box;
+      box.extend(from + (static_cast<double>(piece) / pieces) * along - lower_);
+      box.extend(from + (static_cast<double>(piece + 1) / pieces) * along - lower_);
+      for (std::uint64_t x = index(box.lower.x - reach); x <= index(box.upper.x + reach); ++x)
+        for (std::uint64_t y = index(box.lower.y - reach); y <= index(box.upper.y + reach); ++y)
+          for (std::uint64_t z = index(box.lower.z - reach); z <= index(box.upper.z + reach); ++z)
+            entries_.emplace_back(key(x, y, z), rim);
+    }
+  }
+
+  Span<const Rim> rims_;
+  Vec3 lower_;
+  double width_, cell_ = 0;
+  std::vector<Entry> entries_;
+};
+
+/// The number of rims that no others run along in the opposite direction.
+std::size_t count_open(const std::vector<Rim>& rims, const Aabb& box, double width) {
+  const RimGrid grid(rims, box, width);
+  return static_cast<std::size_t>(std::count_if(rims.begin(), rims.end(), [&grid](const Rim& rim) {
+    return !grid.is_covered(rim, rim.from) || !grid.is_covered(rim, 0.5 * (rim.from + rim.to)) ||
+           !grid.is_covered(rim, rim.to);
   }));
 }
 
@@ -62,7 +106,7 @@ EdgeFaults edge_faults(const TriangleMesh& mesh) {
     rims.push_back(2 * forward > count ? Rim{low, high} : Rim{high, low});
   });
   const Aabb box = bounds(mesh);
-  if (!rims.empty()) faults.open = count_open(std::move(rims), kCrackWidth * length(box.upper - box.lower));
+  if (!rims.empty()) faults.open = count_open(rims, box, kCrackWidth * length(box.upper - box.lower));
   return faults;
 }
 
