@@ -88,6 +88,11 @@ void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan)
   fmt::print(" {}\n", plan.complete() ? "all targets can be removed" : "not all targets can be removed");
   for (const Explanation& e : plan.staying) fmt::print("  {}\n", explanation_text(a, e));
   if (plan.out_of_time) fmt::print("The search ended early; the path contains the steps found so far.\n");
+  if (plan.effort_spent)
+    fmt::print(
+        "For some of these, sliding and sampled paths were searched for until the effort was spent; --effort {:g} "
+        "searches longer.\n",
+        std::max(1.0, 4 * command.effort));
   fmt::print("wrote {}\n", command.output);
 }
 

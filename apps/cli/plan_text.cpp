@@ -101,6 +101,7 @@ Json plan_json(const Assembly& a, const Plan& plan, const Path& path) {
           {"assembly", {{"file", a.source_file}, {"components", a.components.size()}}},
           {"complete", plan.complete()},
           {"out_of_time", plan.out_of_time},
+          {"effort_spent", plan.effort_spent},
           {"tiers", tiers},
           {"steps", steps},
           {"joints", joints},

@@ -225,6 +225,9 @@ void bind_plan_classes(py::module_& module) {
           "out_of_time", [](const PlanView& p) { return p.plan.out_of_time; },
           "True if the search ended at the time limit or was cancelled.")
       .def_property_readonly(
+          "effort_spent", [](const PlanView& p) { return p.plan.effort_spent; },
+          "True if searches for targets that stay ended because their effort was spent: a larger effort may find more.")
+      .def_property_readonly(
           "seconds", [](const PlanView& p) { return p.plan.seconds; }, "Duration of the search [s].")
       .def(
           "path",

@@ -137,6 +137,7 @@ TEST_F(CliPlan, TakesProposalsBackThatKeepSomethingIn) {
   const std::string plan = "plan parts -o all.path.json --effort 0 --fixed floor left right front back bar --json ";
   const Json without = Json::parse(run(plan + "--no-proposals").out);
   EXPECT_EQ(without["removed"].size(), 10u);
+  EXPECT_EQ(without["effort_spent"], true);
   const Json with = Json::parse(run(plan + "--accept-proposals").out);
   EXPECT_EQ(with["removed"].size(), 10u);
   ASSERT_EQ(with["proposals"].size(), 1u);

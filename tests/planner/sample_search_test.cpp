@@ -49,5 +49,19 @@ TEST(SampleSearch, FindsNoExitFromAClosedShellAndEnds) {
   EXPECT_TRUE(plan_by_chance(links, 20'000).steps.empty());
 }
 
+TEST(SampleSearch, SaysWhetherMoreEffortMayFindMore) {
+  const scenes::PlanScene rings = scenes::plan_scene(scenes::assembly(scenes::open_rings(5)));
+  const Plan early = plan_by_chance(rings, 100);
+  ASSERT_FALSE(early.staying.empty());
+  EXPECT_TRUE(early.effort_spent);
+  EXPECT_FALSE(plan_by_chance(rings, 400'000).effort_spent);  // nothing stays
+
+  // What only rattles in a closed shell is not searched for any longer.
+  const scenes::PlanScene shell = scenes::plan_scene(scenes::closed_shell());
+  const Plan locked = plan_disassembly(shell.assembly, shell.pairs, {});
+  ASSERT_FALSE(locked.staying.empty());
+  EXPECT_FALSE(locked.effort_spent);
+}
+
 }  // namespace
 }  // namespace dismantle

@@ -93,6 +93,9 @@ class Planner {
     }
     take_apart_bodies();
     plan_.out_of_time = stopped_;
+    plan_.effort_spent =
+        !stopped_ && std::any_of(plan_.staying.begin(), plan_.staying.end(),
+                                 [this](const Explanation& e) { return curved_.may_find_more(e.component); });
     plan_.joints = joints_;
     plan_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     return std::move(plan_);

@@ -2,11 +2,15 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
+import type { WebGLRenderer } from "three";
 import { sourceFolder } from "./environment.ts";
 import { viewer } from "./scene.ts";
 
 export type Point = { x: number; y: number; z: number };
 type Side = "left" | "right";
+
+/// One of so many frames of the headset is drawn.
+const kPicturePeriod = 5;
 
 interface Controller {
   position: { set(x: number, y: number, z: number): void };
@@ -36,11 +40,20 @@ export async function connectHeadset(page: Page): Promise<void> {
   });
 }
 
-/// Enters the headset. Every frame redraws its picture, which no test examines, so that the picture is kept small.
+/// Enters the headset. Every frame redraws its picture, which no test examines: it is kept small, and most are not drawn.
 export async function enterHeadset(): Promise<void> {
   await viewer.page.click("#headset");
   await viewer.page.waitForFunction(() => window.dismantle!.app.headset.active);
-  await viewer.page.evaluate(() => Object.assign(window.dismantle!.app.viewport.canvas, { width: 160, height: 100 }));
+  await viewer.page.evaluate((period) => {
+    const { viewport } = window.dismantle!.app;
+    Object.assign(viewport.canvas, { width: 160, height: 100 });
+    const { renderer } = viewport as unknown as { renderer: WebGLRenderer };
+    const render = renderer.render.bind(renderer);
+    let count = 0;
+    renderer.render = (scene, camera) => {
+      if (!renderer.xr.isPresenting || count++ % period === 0) render(scene, camera);
+    };
+  }, kPicturePeriod);
   await frames(20);
 }
 
@@ -74,7 +87,7 @@ export function press(page: Page, side: Side, button: "trigger" | "squeeze", val
 }
 
 /// Waits for some frames of the headset.
-export const frames = (count = 3) =>
+export const frames = (count = 2 * kPicturePeriod) =>
   viewer.page.evaluate(async (n) => {
     for (let i = 0; i < n; ++i) await new Promise((resolve) => requestAnimationFrame(resolve));
   }, count);

@@ -43,6 +43,8 @@ class CurvedSteps {
   std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying);
   /// A step by random sampling. @pre find_sliding() found none
   std::optional<PlanStep> find_sampled(const ComponentSet& body, const ComponentSet& staying);
+  /// True if no sliding or sampled path was found for a component, with its group, for want of effort.
+  bool may_find_more(ComponentId c) const { return sliding_.may_find_more(c) || sampling_.may_find_more(c); }
   /// True for the largest component of a group, for which the whole group is searched for and explained.
   bool leads(ComponentId c) const;
 

@@ -35,6 +35,12 @@ class LongSearches {
   /// The last search for a component.
   const InVain& last(ComponentId c) { return in_vain_[c]; }
 
+  /// True if no path was found for a component for want of effort.
+  bool may_find_more(ComponentId c) const {
+    const auto found = in_vain_.find(c);
+    return found == in_vain_.end() ? spent_ >= max_effort_ : found->second.effort != kExhausted;
+  }
+
   /// The path of the first of some components for which there is one, all of them tried with little effort first.
   /// @param body components that are present @param validator measures the effort
   /// @param search (component, effort) -> PathSearch
@@ -53,8 +59,7 @@ class LongSearches {
         if (found.step) return std::move(found.step);
         const bool no_further =
             before.effort > 0 && body.has_all(before.met) && found.furthest <= kFurther * before.furthest.value_or(0);
-        before = {found.exhausted || no_further ? std::numeric_limits<std::size_t>::max() : effort,
-                  std::move(found.met), found.furthest};
+        before = {found.exhausted || no_further ? kExhausted : effort, std::move(found.met), found.furthest};
       }
     return std::nullopt;
   }
@@ -65,6 +70,8 @@ class LongSearches {
   /// A component is searched for no longer once a longer search gets less than this many times as far as the one
   /// before.
   static constexpr double kFurther = 1.1;
+  /// InVain::effort where more does not help.
+  static constexpr std::size_t kExhausted = std::numeric_limits<std::size_t>::max();
 
   std::size_t max_effort_, spent_ = 0;
   std::map<ComponentId, InVain> in_vain_;
