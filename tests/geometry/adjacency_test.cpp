@@ -135,6 +135,18 @@ TEST(Adjacency, FindsTheOpenEdgesOfRandomMeshesInPieces) {
   EXPECT_GT(closed, 10u);
 }
 
+/// Long edges in all directions: an amount of work that is quadratic without a limit.
+TEST(Adjacency, CallsHostileMeshesOpenInTime) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(0, 1);
+  TriangleMesh mesh;
+  for (std::uint32_t f = 0; f < 50'000; ++f) {
+    for (int k = 0; k < 3; ++k) mesh.vertices.push_back({any(random), any(random), any(random)});
+    mesh.faces.push_back({{3 * f, 3 * f + 1, 3 * f + 2}});
+  }
+  EXPECT_GT(edge_faults(mesh).open, 140'000u);
+}
+
 TEST(Adjacency, CallsARolledSheetOpenThoughItsSlitIsClosed) {
   // Only a tube's outside, each strip with separate vertices: all seams are cracks, only its two ends are open.
   TriangleMesh sheet;
