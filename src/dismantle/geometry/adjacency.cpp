@@ -87,7 +87,8 @@ class RimTree {
 
   void append_pieces(std::uint32_t rim, double longest) {
     const Vec3 from = rims_[rim].from, along = rims_[rim].to - from;
-    const int count = 1 + static_cast<int>(length(along) / longest);
+    const double pieces = length(along) / longest;  // not a number where lengths overflow or vanish
+    const int count = pieces > 1 ? 1 + static_cast<int>(pieces) : 1;
     const double reach = width_ * (1 + 1e-6);  // beyond rounding
     for (int k = 0; k < count; ++k) {
       Aabb box;
