@@ -93,9 +93,7 @@ class Planner {
     }
     take_apart_bodies();
     plan_.out_of_time = stopped_;
-    plan_.effort_spent =
-        !stopped_ && std::any_of(plan_.staying.begin(), plan_.staying.end(),
-                                 [this](const Explanation& e) { return curved_.may_find_more(e.component); });
+    plan_.effort_spent = !stopped_ && curved_.may_find_more(plan_.staying);
     plan_.joints = joints_;
     plan_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     return std::move(plan_);
@@ -121,9 +119,9 @@ class Planner {
   bool keep_going() {
     const std::lock_guard lock(progress_mutex_);
     const auto all = static_cast<double>(std::max<std::size_t>(1, count_));
-    const std::string found = count_text(plan_.steps.size(), "step");
-    const std::string stage = plan_.steps.empty() ? "planning" : "planning, " + found + " found";
-    if (!stopped_ && !report_progress(options_.progress, stage, static_cast<double>(taken_out_) / all)) stopped_ = true;
+    const std::string found = plan_.steps.empty() ? "" : ", " + count_text(plan_.steps.size(), "step") + " found";
+    if (!stopped_ && !report_progress(options_.progress, "planning" + found, static_cast<double>(taken_out_) / all))
+      stopped_ = true;
     return in_time();
   }
   /// False once the time limit ends the search; thread-safe.

@@ -68,6 +68,12 @@ std::optional<PlanStep> CurvedSteps::find_long(LongSearches& searches, const Com
   return step ? std::optional(with_group(std::move(*step))) : std::nullopt;
 }
 
+bool CurvedSteps::may_find_more(Span<const Explanation> staying) const {
+  return std::any_of(staying.begin(), staying.end(), [this](const Explanation& e) {
+    return sliding_.may_find_more(e.component) || sampling_.may_find_more(e.component);
+  });
+}
+
 bool CurvedSteps::leads(ComponentId c) const {
   const Span<const ComponentId> group = with_.groups.of(c);
   return *std::max_element(group.begin(), group.end(), [this](ComponentId a, ComponentId b) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/planner/plan.h"
 #include "dismantle/planner/search/component_axes.h"
 #include "dismantle/planner/search/long_searches.h"
 #include "dismantle/planner/search/screw_search.h"
@@ -43,8 +44,8 @@ class CurvedSteps {
   std::optional<PlanStep> find_sliding(const ComponentSet& body, const ComponentSet& staying);
   /// A step by random sampling. @pre find_sliding() found none
   std::optional<PlanStep> find_sampled(const ComponentSet& body, const ComponentSet& staying);
-  /// True if no sliding or sampled path was found for a component, with its group, for want of effort.
-  bool may_find_more(ComponentId c) const { return sliding_.may_find_more(c) || sampling_.may_find_more(c); }
+  /// True if no sliding or sampled path was found for one of these, with its group, for want of effort.
+  bool may_find_more(Span<const Explanation> staying) const;
   /// True for the largest component of a group, for which the whole group is searched for and explained.
   bool leads(ComponentId c) const;
 
