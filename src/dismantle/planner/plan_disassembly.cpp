@@ -118,10 +118,9 @@ class Planner {
   /// False once the user or the time limit ends the search; thread-safe.
   bool keep_going() {
     const std::lock_guard lock(progress_mutex_);
-    const auto all = static_cast<double>(std::max<std::size_t>(1, count_));
     const std::string found = plan_.steps.empty() ? "" : ", " + count_text(plan_.steps.size(), "step") + " found";
-    if (!stopped_ && !report_progress(options_.progress, "planning" + found, static_cast<double>(taken_out_) / all))
-      stopped_ = true;
+    const double share = static_cast<double>(taken_out_) / static_cast<double>(std::max<std::size_t>(1, count_));
+    if (!stopped_ && !report_progress(options_.progress, "planning" + found, share)) stopped_ = true;
     return in_time();
   }
   /// False once the time limit ends the search; thread-safe.
