@@ -25,7 +25,7 @@ TEST(CertificateQueries, AnyFrontGivesTheSameFirstContact) {
   const Assembly assembly = scenes::random_assembly(random, 14, 5);
   const PairStates states = states_of(assembly);
   Grabbed used(assembly, states, 0);
-  for (int step = 0; step < 25; ++step) {
+  for (int step = 0; step < 60; ++step) {
     const Pose target = scenes::random_pose(random, 6, 0.5);
     Grabbed fresh(assembly, states, 0);
     fresh.engine.jump(used.engine.poses());

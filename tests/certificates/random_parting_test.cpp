@@ -19,18 +19,18 @@ using namespace grabbed;
 /// A plate that is drawn into a block, either of them thick, thin or a foil.
 struct SunkenPlate {
   SunkenPlate(std::mt19937_64& random, const Pose& place)
-      : any_(0, 1), depth(kTolerance * (1.2 + 7 * any_(random))), scene(scene_of(random, place)) {}
+      : uniform(0, 1), depth(kTolerance * (1.2 + 7 * uniform(random))), scene(scene_of(random, place)) {}
 
   Assembly scene_of(std::mt19937_64& random, const Pose& place) {
-    const auto thickness = [&] { return kTolerance * std::pow(10, 3 * any_(random)); };
-    const double half = 0.5 + 4 * any_(random), above = std::max(0.05 * kTolerance, thickness() - depth);
+    const auto thickness = [&] { return kTolerance * std::pow(10, 3 * uniform(random)); };
+    const double half = 0.5 + 4 * uniform(random), above = std::max(0.05 * kTolerance, thickness() - depth);
     const TriangleMesh plate = scenes::box({-half, -half, -depth}, {half, 0.7 * half, above});
     const TriangleMesh block = scenes::box({-6, -6, -std::max(1.5 * depth, thickness())}, {6, 6, 0});
     return scenes::assembly({scenes::component("plate", scenes::moved(plate, place)),
                              scenes::component("block", scenes::moved(block, place))});
   }
 
-  std::uniform_real_distribution<double> any_;
+  std::uniform_real_distribution<double> uniform;
   double depth;
   Assembly scene;
 };

@@ -56,7 +56,7 @@ TEST(SampleSearch, SaysWhetherMoreEffortMayFindMore) {
   EXPECT_TRUE(early.effort_spent);
   EXPECT_FALSE(plan_by_chance(rings, 400'000).effort_spent);  // nothing stays
 
-  // What only rattles in a closed shell is not searched for any longer.
+  // A component that only rattles in a closed shell is given up, whatever the effort.
   const scenes::PlanScene shell = scenes::plan_scene(scenes::closed_shell());
   const Plan locked = plan_disassembly(shell.assembly, shell.pairs, {});
   ASSERT_FALSE(locked.staying.empty());

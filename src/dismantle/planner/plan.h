@@ -91,7 +91,7 @@ struct Plan {
   std::vector<PlanStep> steps;            ///< In order. A body that a step removes is taken apart by later steps.
   std::vector<Explanation> staying;       ///< For each component that should be removed and cannot.
   bool out_of_time = false;               ///< The time limit or the user ended the search early.
-  bool effort_spent = false;              ///< Searches for components that stay ended at PlanOptions' efforts.
+  bool effort_spent = false;              ///< More effort may free components that stay (PlanOptions).
   std::vector<ComponentPair> allowances;  ///< Of pairs that may be deeper than the tolerance, by the engine.
   double seconds = 0;                     ///< Duration of the search.
   std::vector<Joint> joints{};            ///< That the order follows; empty with FastenerOrder::Ignored.

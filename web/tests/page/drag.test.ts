@@ -172,14 +172,14 @@ test("the last target is sent although the connection was congested when it was 
   await viewer.release();
 });
 
-test("while a component is held still, nothing is drawn anew", async () => {
+test("the view is not redrawn while a component is held still", async () => {
   await viewer.grab(kSlide, 60, 0);
   const renders = await viewer.page.evaluate(async () => {
     const { viewport } = window.dismantle!.app;
     let counted = 0;
     const count = () => ++counted;
     viewport.afterRender.add(count);
-    await new Promise((resolve) => setTimeout(resolve, 2500)); // the metrics are asked for twice
+    await new Promise((resolve) => setTimeout(resolve, 2500)); // two requests of metrics
     viewport.afterRender.delete(count);
     return counted;
   });
