@@ -23,6 +23,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -60,6 +61,7 @@ struct Loaded {
 /// Data shared by all batches of an assembly.
 struct Prepared {
   PairStates states;
+  std::shared_ptr<const AssemblySurfaces> surfaces;
   PathAuditor auditor;
 };
 
@@ -181,7 +183,8 @@ class Soak {
       const Assembly& assembly = loaded_[which].assembly;
       Result<PairStates> states = classify_pairs(assembly, {});
       if (states)
-        prepared_[which].emplace(Prepared{std::move(*states), PathAuditor(assembly)});
+        prepared_[which].emplace(
+            Prepared{*states, CertificateEngine(assembly, *states).surfaces(), PathAuditor(assembly)});
       else
         std::fprintf(stderr, "soak_motion: %s\n", states.error().message.c_str());
     });
@@ -192,7 +195,7 @@ class Soak {
     const Loaded& one = loaded_[item.which];
     const Prepared* prepared = prepare(item.which);
     if (prepared == nullptr) return false;
-    const Batch batch = soak::run_batch(one.assembly, prepared->states, prepared->auditor,
+    const Batch batch = soak::run_batch(one.assembly, prepared->states, prepared->surfaces, prepared->auditor,
                                         settings_.seed * 1'000'003 + item.batch, settings_.batch);
     if (!batch.result.good()) report_failure(one.input.name, item.batch, batch);
     const Result<Done> added = record_.add(one.input.name, item.batch, batch.result);

@@ -47,6 +47,7 @@ Result<InstructionsRequest> instructions_request(const Json& command, const Mode
   WorkInstructionsOptions& content = request.options.content;
   content.direction = *reverse ? PathDirection::Reversed : PathDirection::Forward;
   content.engine = engine_beside(model.session->options());
+  content.engine.prepared = model.session->engine().surfaces();
   if (const Result<Done> read = read_titles(in, content); !read) return read.error();
   if (content.product.empty()) content.product = model.name;
   return request;

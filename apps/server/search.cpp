@@ -43,8 +43,12 @@ PairStates pairs_of(const SessionSnapshot& snapshot, const PairStates& all,
 
 PlanOptions plan_options(const SearchRequest& request, const ProgressCallback& progress) {
   const SessionSnapshot& snapshot = *request.snapshot;
-  PlanOptions options{local(snapshot, request.targets), local(snapshot, request.fixed), 0,
-                      engine_beside(request.engine), progress};
+  PlanOptions options;
+  options.targets = local(snapshot, request.targets);
+  options.fixed = local(snapshot, request.fixed);
+  options.engine = engine_beside(request.engine);
+  options.progress = progress;
+  options.engine.prepared = snapshot.prepared;
   options.preferences = request.preferences;
   return options;
 }
@@ -142,14 +146,14 @@ std::string_view name_of(SearchKind kind) {
 }
 
 SessionSnapshot assembled_snapshot(const Session& session) {
-  SessionSnapshot all{session.assembly(), session.pairs(), {}, {}};
+  SessionSnapshot all{session.assembly(), session.pairs(), {}, {}, session.engine().surfaces()};
   for (std::uint32_t c = 0; c < all.assembly.components.size(); ++c) all.components.emplace_back(c);
   all.poses.resize(all.components.size());
   return all;
 }
 
 SessionSnapshot current_snapshot(const Session& session) {
-  SessionSnapshot current{session.assembly(), {}, {}, {}};
+  SessionSnapshot current{session.assembly(), {}, {}, {}, session.engine().surfaces()};
   current.assembly.components.clear();
   for (std::uint32_t c = 0; c < session.poses().size(); ++c) {
     if (session.is_removed(ComponentId(c))) continue;

@@ -35,6 +35,8 @@ struct SessionSnapshot {
   PairStates pairs;                     ///< Of `assembly`.
   std::vector<ComponentId> components;  ///< Ids in the session, ascending; index: component of `assembly`.
   std::vector<Pose> poses;              ///< Poses in the session; index as above.
+  /// What the session's engine has prepared; the search takes what is in the same place.
+  std::shared_ptr<const AssemblySurfaces> prepared;
 };
 
 /// A snapshot of all components in the assembled state.

@@ -148,8 +148,8 @@ void BatchResult::add(const BatchResult& other) {
   if (message.empty()) message = other.message;
 }
 
-Batch run_batch(const Assembly& assembly, const PairStates& states, const PathAuditor& auditor, std::uint64_t seed,
-                const BatchOptions& options) {
+Batch run_batch(const Assembly& assembly, const PairStates& states, std::shared_ptr<const AssemblySurfaces> surfaces,
+                const PathAuditor& auditor, std::uint64_t seed, const BatchOptions& options) {
   std::mt19937_64 random(seed);
   Batch batch;
   BatchResult& result = batch.result;
@@ -160,6 +160,7 @@ Batch run_batch(const Assembly& assembly, const PairStates& states, const PathAu
   const bench::Stopwatch engine_watch;
   CertificateOptions engine_options;
   limit_steps(engine_options);
+  engine_options.prepared = std::move(surfaces);
   if (options.threads > 1) engine_options.executor = Executor(ExecutorKind::Threads, options.threads);
   CertificateEngine engine(assembly, states, engine_options);
   Result<PlayedMotion> played = play_motion(assembly, states, batch.motion, engine);

@@ -5,10 +5,12 @@
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/assembly/path.h"
 #include "dismantle/audit/audit_path.h"
+#include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/session/play_motion.h"
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 
 /// Random drags over assemblies, every path audited (bench/soak_motion.cpp).
@@ -70,8 +72,8 @@ struct Batch {
 /// Starts in the assembled state and drags random components one after another, in random directions, by a trembling
 /// hand that ignores obstacles; audits the path. Then the last component is tested for being stuck: where the audit
 /// finds a short straight motion free with six tenths of the tolerance for all pairs, the engine must make nine tenths
-/// of it. Depends on the arguments alone, apart from times. @param auditor of the assembly
-Batch run_batch(const Assembly& assembly, const PairStates& states, const PathAuditor& auditor, std::uint64_t seed,
-                const BatchOptions& options);
+/// of it. Depends on the arguments alone, apart from times. @param surfaces, auditor of the assembly
+Batch run_batch(const Assembly& assembly, const PairStates& states, std::shared_ptr<const AssemblySurfaces> surfaces,
+                const PathAuditor& auditor, std::uint64_t seed, const BatchOptions& options);
 
 }  // namespace dismantle::soak

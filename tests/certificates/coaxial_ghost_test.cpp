@@ -3,7 +3,7 @@
 #include "dismantle/certificates/ghosts/coaxial_ghost.h"
 
 #include "dismantle/certificates/ghosts/profile_along_axis.h"
-#include "dismantle/certificates/sweep/front_store.h"
+#include "dismantle/certificates/sweep/assembly_surfaces.h"
 #include "dismantle/surface/ghost_surface.h"
 #include "tests/certificates/grabbed_component.h"
 #include "tests/support/depth_oracle.h"
@@ -72,12 +72,12 @@ TEST(CoaxialGhost, IsNoDeeperInItsSolidThanAllowed) {
   const Assembly assembly = nut_off_its_screw(36, 30);
   const PairStates states = states_of(assembly);
   const Executor executor;
-  FrontStore store(assembly, kGhostLength * states.tolerance, executor);
+  const AssemblySurfaces surfaces(assembly, {states.tolerance, {}});
   const SolidShape shapes[] = {SolidShape(assembly.components[0]), SolidShape(assembly.components[1])};
   const double limit = states.pairs[0].depth;
   for (const std::uint32_t own : {0u, 1u}) {
     const auto side = [&](std::uint32_t c) {
-      return OverlapSide{&store.solid(ComponentId(c)), [&, c]() -> const SolidShape& { return shapes[c]; }};
+      return OverlapSide{&surfaces.solid(ComponentId(c)), [&, c]() -> const SolidShape& { return shapes[c]; }};
     };
     const OverlapSide mine = side(own), other = side(1 - own);
     const auto axes = common_axes(*mine.tree, *other.tree, 0.01);

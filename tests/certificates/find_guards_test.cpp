@@ -3,7 +3,7 @@
 #include "dismantle/certificates/ghosts/find_guards.h"
 
 #include "dismantle/certificates/certificate_engine.h"
-#include "dismantle/certificates/sweep/front_store.h"
+#include "dismantle/certificates/sweep/assembly_surfaces.h"
 #include "tests/certificates/grabbed_component.h"
 #include "tests/support/depth_oracle.h"
 #include "tests/support/large_scenes.h"
@@ -23,11 +23,12 @@ using namespace grabbed;
 
 std::vector<FoundGuard> guards_of(const Assembly& assembly, const PairStates& states) {
   const Executor executor;
-  FrontStore store(assembly, kGhostLength * states.tolerance, executor);
+  const AssemblySurfaces surfaces(assembly, {states.tolerance, {}});
   std::vector<ComponentTrees> trees;
   for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
-    trees.push_back({&store.solid(ComponentId(c)), &store.ghost(ComponentId(c), ComponentId(c))});
-  return find_guards({&assembly, &states, trees, executor, front_kernels(CertificateOptions{}.lanes)});
+    trees.push_back({&surfaces.solid(ComponentId(c)), &surfaces.ghost(ComponentId(c))});
+  const LazyShapes shapes(assembly);
+  return find_guards({&assembly, &states, &shapes, trees, executor, front_kernels(CertificateOptions{}.lanes)});
 }
 
 TEST(FindGuards, FindsGhostsOfFineCylindersThatTouchEverywhere) {
@@ -163,11 +164,11 @@ TEST(FindGuards, NoGhostIsDeeperInItsSolidThanThePairMayBe) {
 struct BlockOverFloor {
   Assembly assembly = scenes::assembly({scenes::component("block", scenes::box({0, 0, 0}, {5, 5, 5})),
                                         scenes::component("floor", scenes::box({-20, -20, -9}, {20, 20, 0}))});
-  FrontStore store{assembly, kGhostLength* kTolerance, Executor()};
+  AssemblySurfaces surfaces{assembly, {kTolerance, {}}};
   SolidShape shapes[2] = {SolidShape(assembly.components[0]), SolidShape(assembly.components[1])};
   ComponentAt at(std::uint32_t c, double height = 0) {
     const ComponentId id(c);
-    return {&store.solid(id), &store.ghost(id, id), {{}, {0, 0, height}}, [this, c] { return &shapes[c]; }};
+    return {&surfaces.solid(id), &surfaces.ghost(id), {{}, {0, 0, height}}, [this, c] { return &shapes[c]; }};
   }
 };
 

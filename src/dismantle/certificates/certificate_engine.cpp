@@ -81,6 +81,10 @@ std::optional<StraightContact> CertificateEngine::straight_contact(ComponentId m
   return dismantle::straight_contact(impl_->sweeper, {moving, fixed, displacement, {}, {}}, search);
 }
 
+std::shared_ptr<const AssemblySurfaces> CertificateEngine::surfaces() const {
+  return impl_->sweeper.surfaces();
+}
+
 std::size_t CertificateEngine::front_size() const {
   return impl_->sweeper.front_size();
 }

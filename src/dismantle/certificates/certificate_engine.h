@@ -39,6 +39,9 @@ struct StraightContact {
   Vec3 point;           ///< Where the two faces meet [mm, world].
 };
 
+/// What engines prepare of an assembly: trees, ghost surfaces, allowances.
+class AssemblySurfaces;
+
 /// Options of the method `certificates`.
 struct CertificateOptions {
   Executor executor;                 ///< Runs the parts of a sweep in parallel; the results do not depend on it.
@@ -54,6 +57,10 @@ struct CertificateOptions {
   /// Tests of triangle pairs and pieces of surfaces after which a step of response Slide ends early, at a pose that is
   /// free, or 0 for no limit. The next step continues. The limit does not apply to the first try of a step.
   std::size_t slide_tests = 0;
+  /// What another engine has prepared (CertificateEngine::surfaces()), or null. Components and pairs of this assembly
+  /// that have the same meshes and allowances in the same place are taken from there, which takes no time. The results
+  /// do not depend on it.
+  std::shared_ptr<const AssemblySurfaces> prepared = {};
 };
 
 /// A device that evaluates fronts, and when it is used.
@@ -69,7 +76,7 @@ struct CertificateDevice {
 /// input gives the same results with every executor, thread count, lane width and device.
 class CertificateEngine final : public MotionEngine {
  public:
-  /// All components in the assembled state. `assembly` must outlive the engine.
+  /// All components in the assembled state.
   CertificateEngine(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options = {},
                     CertificateDevice device = {});
   ~CertificateEngine() override;
@@ -106,6 +113,8 @@ class CertificateEngine final : public MotionEngine {
   /// assembled poses whatever was moved since; none if it is free. May be called by many threads at the same time.
   std::optional<StraightContact> straight_contact(ComponentId moving, ComponentId fixed, const Vec3& displacement,
                                                   StraightSearch search) const;
+  /// What was prepared, for other engines of this assembly or of a part of it.
+  std::shared_ptr<const AssemblySurfaces> surfaces() const;
   /// Number of pairs of nodes of the fronts of the moving set.
   std::size_t front_size() const;
 

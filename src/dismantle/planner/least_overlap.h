@@ -15,7 +15,9 @@ class OverlapSearch {
   /// @param states the pairs in the assembled state @param table of all components; both must outlive this
   OverlapSearch(const Assembly& assembly, const PairStates& states, BlockingTable& table,
                 const CertificateOptions& options)
-      : assembly_(assembly), states_(states), table_(table), options_(options) {}
+      : assembly_(assembly), states_(states), table_(table), options_(options) {
+    options_.prepared = table.engine().surfaces();
+  }
 
   /// The straight way out of `present` along one of `directions` for which pairs of a component and its group would
   /// have to be allowed the least depth, to within a tenth, that is no more than `most` above what they are allowed;

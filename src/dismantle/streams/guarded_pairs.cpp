@@ -89,13 +89,15 @@ void GuardedPairs::find_own_ghosts(const PairStates& states, const AssemblyTrian
                                    const Executor& executor) {
   std::vector<ComponentTrees> trees(assembly_.components.size());
   for (const auto& [c, solid] : solids_) trees[c.value] = {&solid.tree, &solid.ghost};
-  for (const FoundGuard& found : find_guards({&assembly_, &states, trees, executor, front_kernels(widest_lanes())})) {
+  const LazyShapes shapes(assembly_);
+  const GuardSearch search{&assembly_, &states, &shapes, trees, executor, front_kernels(widest_lanes())};
+  for (const FoundGuard& found : find_guards(search)) {
     if (found.guard.guard == PairGuard::None) continue;  // EmbeddedPairs knows it
     Pair pair{found.a, found.b, found.guard, {PairTest::Certified}};
     if (found.guard.guard == PairGuard::Depth) {
       pair.rule.test = PairTest::None;
-      solids_.at(found.a).shape = found.shapes[0];
-      solids_.at(found.b).shape = found.shapes[1];
+      solids_.at(found.a).shape = shapes.of(found.a);
+      solids_.at(found.b).shape = shapes.of(found.b);
     } else if (!found.ghosts[0].empty()) {
       const auto offset = [&](ComponentId c) {
         return static_cast<std::uint32_t>(ghosts_.displaced.size() - triangles.vertex_begin[c.value]);

@@ -9,6 +9,7 @@
 #include "dismantle/math/rigid_transform.h"
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -41,6 +42,8 @@ struct PreparedSweep : LinearSweep {
   std::unique_ptr<const RadialSweeps> radial;  ///< Separation by radii; null if it cannot be used.
   double max_fit_deviation = -1;               ///< As PairMotion::max_fit_deviation [mm].
   std::vector<ThreadSweep> threads;            ///< Separation of mating threads; those that are useful.
+  /// sweep_const() ends soon after so many tests of triangles, incomplete.
+  std::size_t max_tests = std::numeric_limits<std::size_t>::max();
 };
 
 /// Result of sweeping a part of a front.

@@ -31,6 +31,10 @@ void CertificateFront::resolve(Work& work, const PreparedSweep& sweep, const Fro
   work.blocked.assign(work.waiting.size(), 0);
   for (std::uint32_t k = 0; k < work.waiting.size(); ++k) work.items[work.waiting[k]].start = k;
   while (!work.waiting.empty()) {
+    if (result.triangle_tests > sweep.max_tests) {
+      result.complete = false;
+      return;
+    }
     const std::size_t kept = work.waiting.size() - std::min(kBatch, work.waiting.size());
     work.batch.assign(work.waiting.begin() + static_cast<std::ptrdiff_t>(kept), work.waiting.end());
     work.waiting.resize(kept);

@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
 
 namespace dismantle {
 
@@ -27,51 +30,72 @@ SolidTree surface_of(const SolidTree& component, const std::vector<Vec3>& vertic
   return surface;
 }
 
-/// Calls visit(face, face of the other component) for the pairs of faces whose boxes meet while the surface is shifted.
-/// Returns early, false, where visit returns false.
+/// Calls visit(face, face of the other component) for the faces of the other component whose boxes meet that of a face
+/// of the surface while this is shifted. Returns early, false, where visit returns false.
 template <class Visit>
-bool for_each_near(const SolidTree& surface, const SurfaceTree& other, Vec3 from, Vec3 to, double margin,
-                   const Visit& visit) {
-  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
-    const Triangle t = surface.triangle(f);
-    Aabb box;
-    for (int i = 0; i < 3; ++i) {
-      box.extend(t[i] + from);
-      box.extend(t[i] + to);
-    }
-    const Vec3 around{margin, margin, margin};
-    box = {box.lower - around, box.upper + around};
-    if (!other.for_each_in_box(box, [&](std::uint32_t face) { return visit(f, face); })) return false;
+bool for_each_near(const SolidTree& surface, std::uint32_t face, const SurfaceTree& other, Vec3 from, Vec3 to,
+                   double margin, const Visit& visit) {
+  const Triangle t = surface.triangle(face);
+  Aabb box;
+  for (int i = 0; i < 3; ++i) {
+    box.extend(t[i] + from);
+    box.extend(t[i] + to);
   }
-  return true;
+  const Vec3 around{margin, margin, margin};
+  box = {box.lower - around, box.upper + around};
+  return other.for_each_in_box(box, [&](std::uint32_t other_face) { return visit(face, other_face); });
 }
 
 }  // namespace
 
-std::size_t DisplacedFaces::count_meeting(const std::vector<Vec3>& vertices, std::size_t enough) const {
-  const SolidTree surface = surface_of(*own_.tree, vertices);
-  const TrianglePairSweep sweep(surface, *other_.tree, {}, {}, 0, tolerance_);
-  std::size_t meeting = 0;
-  for_each_near(surface, other_.shape().surface(), {}, {}, kBoxMargin * tolerance_,
-                [&](std::uint32_t own, std::uint32_t other) {
-                  ++tests_;
-                  return sweep.test(own, other, {}).free || ++meeting < enough;
-                });
-  return meeting;
+DisplacedFaces::Meeting DisplacedFaces::meeting(std::vector<Vec3> vertices) const {
+  const Meeting none{own_.tree->vertices, std::vector<std::uint32_t>(own_.tree->faces.size()), 0};
+  return *count(none, std::move(vertices), std::numeric_limits<std::size_t>::max(), true);
+}
+
+std::optional<DisplacedFaces::Meeting> DisplacedFaces::meeting_less(const Meeting& before, std::vector<Vec3> vertices,
+                                                                    std::size_t limit) const {
+  return count(before, std::move(vertices), limit, false);
+}
+
+std::optional<DisplacedFaces::Meeting> DisplacedFaces::count(const Meeting& before, std::vector<Vec3> vertices,
+                                                             std::size_t limit, bool all_faces) const {
+  const Span<const Face> faces = own_.tree->faces;
+  Meeting now{std::move(vertices), before.of_face, before.total};
+  std::vector<std::uint32_t> changed;
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    const auto moved = [&](std::uint32_t v) { return !(now.vertices[v] == before.vertices[v]); };
+    if (!all_faces && std::none_of(std::begin(faces[f].v), std::end(faces[f].v), moved)) continue;
+    changed.push_back(f);
+    now.total -= now.of_face[f];
+    now.of_face[f] = 0;
+  }
+  const SolidTree surface = surface_of(*own_.tree, now.vertices);
+  const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, tolerance_);
+  const auto count_pair = [&](std::uint32_t own, std::uint32_t other) {
+    ++tests_;
+    if (still.test(own, other, {}).free) return true;
+    ++now.of_face[own];
+    return ++now.total < limit;
+  };
+  if (now.total >= limit) return std::nullopt;
+  for (const std::uint32_t f : changed)
+    if (!for_each_near(surface, f, other_.shape().surface(), {}, {}, kBoxMargin * tolerance_, count_pair))
+      return std::nullopt;
+  return now;
 }
 
 bool DisplacedFaces::apart(const std::vector<Vec3>& vertices, bool may_contain) const {
-  return count_meeting(vertices, 1) == 0 && !(may_contain && contained(vertices));
+  return free(vertices, {}, {}) && !(may_contain && contained(vertices));
 }
 
 bool DisplacedFaces::free(const std::vector<Vec3>& vertices, Vec3 from, Vec3 to) const {
   const SolidTree surface = surface_of(*own_.tree, vertices);
   const TrianglePairSweep sweep(surface, *other_.tree, {from, {}}, {to, {}}, 0, tolerance_);
-  return for_each_near(surface, other_.shape().surface(), from, to, kBoxMargin * tolerance_,
-                       [&](std::uint32_t own, std::uint32_t other) {
-                         ++tests_;
-                         return sweep.test(own, other, {}).free;
-                       });
+  const auto is_free = [&](std::uint32_t own, std::uint32_t other) { return sweep.test(own, other, {}).free; };
+  for (std::uint32_t f = 0; f < surface.faces.size(); ++f)
+    if (!for_each_near(surface, f, other_.shape().surface(), from, to, kBoxMargin * tolerance_, is_free)) return false;
+  return true;
 }
 
 std::vector<Vec3> DisplacedFaces::moved_out(std::vector<Vec3> vertices, double gap, double max_length) const {

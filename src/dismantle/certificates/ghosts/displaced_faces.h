@@ -3,6 +3,8 @@
 
 #include "dismantle/certificates/ghosts/overlap_retraction.h"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace dismantle {
@@ -17,8 +19,16 @@ class DisplacedFaces {
   DisplacedFaces(const OverlapSide& own, const OverlapSide& other, double tolerance)
       : own_(own), other_(other), tolerance_(tolerance) {}
 
-  /// Number of pairs of faces that meet, or `enough`; touching counts.
-  std::size_t count_meeting(const std::vector<Vec3>& vertices, std::size_t enough) const;
+  /// Displaced vertices, and how many faces of the other component their faces meet; touching counts.
+  struct Meeting {
+    std::vector<Vec3> vertices;
+    std::vector<std::uint32_t> of_face;  ///< Number of faces that each face meets.
+    std::size_t total = 0;               ///< Of all faces.
+  };
+  /// What the displaced faces meet.
+  Meeting meeting(std::vector<Vec3> vertices) const;
+  /// What they meet with other vertices, if that is less than `limit`. Tests only the faces that change.
+  std::optional<Meeting> meeting_less(const Meeting& before, std::vector<Vec3> vertices, std::size_t limit) const;
   /// True if the displaced surface does not meet the other component, and neither is inside the other: as far as a few
   /// of their vertices tell.
   /// @param may_contain false for components that touch only: nothing is looked for inside
@@ -31,10 +41,13 @@ class DisplacedFaces {
   /// The vertices, those inside the other component moved out of it the shortest way, and `gap` further [mm].
   /// @param max_length no vertex is further from its place in the component than this [mm]
   std::vector<Vec3> moved_out(std::vector<Vec3> vertices, double gap, double max_length) const;
-  /// Pairs of faces tested so far.
+  /// Pairs of faces that meeting() and meeting_less() have tested so far.
   std::size_t tests() const { return tests_; }
 
  private:
+  std::optional<Meeting> count(const Meeting& before, std::vector<Vec3> vertices, std::size_t limit,
+                               bool all_faces) const;
+
   const OverlapSide& own_;
   const OverlapSide& other_;
   double tolerance_;

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -22,32 +21,11 @@ constexpr double kFinest = 1.0 / 16;
 /// Surfaces that are nearer than this share of the tolerance may touch, as far as rounding can tell.
 constexpr double kTouching = 1e-6;
 
-/// The shapes of components, each built when it is first wanted.
-class Shapes {
- public:
-  explicit Shapes(const Assembly& assembly) : assembly_(assembly), shapes_(assembly.components.size()) {}
-
-  const SolidShape& of(ComponentId c) { return *shared(c); }
-  const std::shared_ptr<const SolidShape>& shared(ComponentId c) {
-    Built& built = shapes_[c.value];
-    std::call_once(built.once, [&] { built.shape = std::make_shared<const SolidShape>(assembly_[c]); });
-    return built.shape;
-  }
-
- private:
-  struct Built {
-    std::once_flag once;
-    std::shared_ptr<const SolidShape> shape;
-  };
-  const Assembly& assembly_;
-  std::vector<Built> shapes_;
-};
-
 /// The guard of a pair for which ghosts were searched; nothing where it needs none.
 /// @param one_is_thick true if one of the two is a solid without walls thinner than twice a length [mm]
 std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<PairGhosts> found, double tolerance,
                                    const std::function<bool(double)>& one_is_thick) {
-  FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, {}, {}, kGhostLength * tolerance}, {}, {}};
+  FoundGuard result{pair.a, pair.b, {PairGuard::Ghosts, pair.allowed_depth, {}, {}, kGhostLength * tolerance}, {}};
   GuardedPair& guard = result.guard;
   guard.parting = tolerance;
   if (!found) {
@@ -111,18 +89,18 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
                        !search.assembly->components[pair.b.value].mesh->faces.empty();
     if (faces) pairs.push_back(pair);
   }
-  Shapes shapes(*search.assembly);
+  const LazyShapes& shapes = *search.shapes;
   std::vector<std::optional<FoundGuard>> guards(pairs.size());
   search.executor.for_each_heavy(pairs.size(), [&](std::size_t i) {
     const ComponentPair& pair = pairs[i];
     if (pair.state == PairState::Free) {
-      guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited, {}, {}, 0, tolerance}, {}, {}};
+      guards[i] = FoundGuard{pair.a, pair.b, {PairGuard::None, kUnlimited, {}, {}, 0, tolerance}, {}};
       return;
     }
     const bool solids = trees(pair.a).solid->has_outside && trees(pair.b).solid->has_outside;
     const double declared = std::max(0.0, pair.declared - tolerance);
     const auto side = [&](ComponentId c) {
-      return OverlapSide{trees(c).solid, [&shapes, c]() -> const SolidShape& { return shapes.of(c); }};
+      return OverlapSide{trees(c).solid, [&shapes, c]() -> const SolidShape& { return *shapes.of(c); }};
     };
     const PairGhostRequest request{
         side(pair.a), side(pair.b), trees(pair.a).ghost, trees(pair.b).ghost, std::max(pair.depth, declared),
@@ -133,7 +111,7 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
     const auto one_is_thick = [&](double length) {
       // Not kept with the shape: each pair has a length of its own.
       const auto has_no_thin_place = [&](ComponentId c) {
-        return trees(c).solid->has_outside && ThinPlaces(shapes.of(c), length).none();
+        return trees(c).solid->has_outside && ThinPlaces(*shapes.of(c), length).none();
       };
       return has_no_thin_place(pair.b) || has_no_thin_place(pair.a);
     };
@@ -141,13 +119,12 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
     if (!guards[i] || guards[i]->guard.guard != PairGuard::Depth) return;
     FoundGuard& found = *guards[i];
     const double far_allowed = pair.declared > 0 ? found.guard.allowed : tolerance;
-    const BoundedSide a{*trees(pair.a).solid, shapes.of(pair.a)}, b{*trees(pair.b).solid, shapes.of(pair.b)};
+    const BoundedSide a{*trees(pair.a).solid, *shapes.of(pair.a)}, b{*trees(pair.b).solid, *shapes.of(pair.b)};
     limit_far_points(found.guard, a, b, far_allowed, pair.depth, tolerance);
     // Walls of both are thicker than the displacements of usual ghosts, which are on the sides of their faces then.
     const double displaced = kGhostLength * tolerance;
     if (a.shape.thin_places(displaced).none() && b.shape.thin_places(displaced).none())
       found.guard.parting = kApartShare * tolerance;
-    found.shapes = {shapes.shared(pair.a), shapes.shared(pair.b)};
   });
   std::vector<FoundGuard> found;
   for (std::optional<FoundGuard>& guard : guards)

@@ -11,6 +11,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace dismantle {
@@ -60,13 +61,41 @@ struct FoundGuard {
   GuardedPair guard;  ///< Not parted.
   /// Displaced vertices of `a` and `b` where they have ghosts of their own [mm, assembled]; else both are empty.
   std::array<std::vector<Vec3>, 2> ghosts;
-  std::array<std::shared_ptr<const SolidShape>, 2> shapes;  ///< Of `a` and `b` with PairGuard::Depth; else null.
+};
+
+/// The shapes of an assembly's components, each built when it is first wanted, by any thread.
+class LazyShapes {
+ public:
+  /// @param assembly must outlive this
+  explicit LazyShapes(const Assembly& assembly) : assembly_(assembly), shapes_(assembly.components.size()) {
+    for (auto& shape : shapes_) shape = std::make_shared<Lazy>();
+  }
+
+  /// The shape of a component. @param executor builds it
+  const std::shared_ptr<const SolidShape>& of(ComponentId c, const Executor& executor = {}) const {
+    Lazy& lazy = *shapes_[c.value];
+    std::call_once(lazy.once, [&] { lazy.shape = std::make_shared<const SolidShape>(assembly_[c], executor); });
+    return lazy.shape;
+  }
+  /// Shares the shape of a component with a component of other shapes. @pre both have the same mesh in the same place
+  void share(ComponentId c, const LazyShapes& others, ComponentId other) {
+    shapes_[c.value] = others.shapes_[other.value];
+  }
+
+ private:
+  struct Lazy {
+    std::once_flag once;
+    std::shared_ptr<const SolidShape> shape;
+  };
+  const Assembly& assembly_;
+  std::vector<std::shared_ptr<Lazy>> shapes_;
 };
 
 /// The components whose guards are wanted.
 struct GuardSearch {
   const Assembly* assembly = nullptr;  ///< Never null.
   const PairStates* pairs = nullptr;   ///< Of the assembled state; never null.
+  const LazyShapes* shapes = nullptr;  ///< Of the components; never null.
   Span<const ComponentTrees> trees;    ///< Shape [component_count].
   Executor executor;                   ///< Runs the pairs; the result does not depend on it.
   FrontKernels kernels;                ///< Any.

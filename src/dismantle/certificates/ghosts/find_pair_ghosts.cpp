@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dismantle {
@@ -42,7 +43,7 @@ constexpr double kTouching = 0.02;
 /// Patches are left out of the retraction one by one only where no more than this number overlap.
 constexpr std::size_t kMaxPatches = 24;
 /// Largest number of tests of pairs of faces in that search.
-constexpr std::size_t kMaxTests = 2000000;
+constexpr std::size_t kMaxTests = 200000;
 /// Gaps of ghosts about a common axis, as shares of the depth: as much room as there is, as the axis is not exact.
 constexpr double kCoaxialGaps[] = {0.05, 0.02, 0.01, 0.005, 0.002};
 /// Two axes are one if they are no further apart than this share of the depth.
@@ -199,26 +200,30 @@ class GhostSide {
       return retracted(changed);
     };
     const std::size_t end = displaced_.tests() + kMaxTests;
-    std::size_t fewest = displaced_.count_meeting(retracted(chosen), kMaxTests);
+    DisplacedFaces::Meeting meeting = displaced_.meeting(retracted(chosen));
     bool into_solid = true;
     for (std::size_t round = 0; round < patches.size(); ++round) {
-      std::optional<std::pair<std::uint32_t, double>> best;
+      struct Better {
+        std::uint32_t patch;
+        double retraction;
+        DisplacedFaces::Meeting meeting;
+      };
+      std::optional<Better> best;
       for (const std::uint32_t patch : patches)
         for (const double other : {0.0, kFollowsOthers}) {
+          const std::size_t fewest = best ? best->meeting.total : meeting.total;
           if (fewest == 0 || chosen[patch] <= other) continue;
           if (displaced_.tests() > end) return std::nullopt;
-          const std::size_t meeting = displaced_.count_meeting(vertices_with(patch, other), fewest);
-          if (meeting >= fewest) continue;
-          fewest = meeting;
-          best = {patch, other};
+          auto less = displaced_.meeting_less(meeting, vertices_with(patch, other), fewest);
+          if (less) best = {patch, other, std::move(*less)};
         }
       if (!best) return std::nullopt;
-      into_solid = into_solid && best->second == 0;
-      set_patch(chosen, best->first, best->second);
-      if (fewest > 0) continue;
-      std::vector<Vec3> found = retracted(chosen);
-      if (!apart(found) || !shallow(found)) return std::nullopt;
-      return Found{std::move(found), into_solid};
+      into_solid = into_solid && best->retraction == 0;
+      set_patch(chosen, best->patch, best->retraction);
+      meeting = std::move(best->meeting);
+      if (meeting.total > 0) continue;
+      if (!apart(meeting.vertices) || !shallow(meeting.vertices)) return std::nullopt;
+      return Found{std::move(meeting.vertices), into_solid};
     }
     return std::nullopt;
   }
@@ -285,17 +290,20 @@ class GhostSide {
 
   bool apart(const std::vector<Vec3>& vertices) const { return displaced_.apart(vertices, overlaps()); }
 
-  /// The pairs of faces of the two components that are nearer than `reach` [mm], and some more.
+  /// The pairs of faces of the two components that are nearer than `reach` [mm], and some more; not all of them where
+  /// they are more than kMaxNear.
   const FacePairs& near_within(double reach) {
     if (reach <= near_reach_) return near_;
     // Where the shortest displacements were not enough, somewhat longer ones will be tried as well.
     near_reach_ = near_reach_ > 0 ? std::max(reach, kMaxFactorForCorners * near_reach_) : reach;
-    near_ = near_faces(*own_.tree, near_reach_);
+    near_ = near_faces(*own_.tree, near_reach_, kMaxNear);
     return near_;
   }
 
-  /// The pairs of faces of a surface and of the other component that are nearer than `reach` [mm], and some more.
-  FacePairs near_faces(const SolidTree& surface, double reach) const {
+  /// The pairs of faces of a surface and of the other component that are nearer than `reach` [mm], and some more; not
+  /// all of them where they are more than `most`.
+  FacePairs near_faces(const SolidTree& surface, double reach,
+                       std::size_t most = std::numeric_limits<std::size_t>::max()) const {
     const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, request_.tolerance);
     PairMotion motion = still.motion();
     motion.allowed = -reach;
@@ -306,7 +314,9 @@ class GhostSide {
       faces.emplace_back(candidate.face_moving, candidate.face_fixed);
       return TrianglePairVerdict{};
     };
-    pairs.sweep_const(pairs.prepare_sweep(motion), request_.kernels, take);
+    PreparedSweep all = pairs.prepare_sweep(motion);
+    all.max_tests = most;
+    pairs.sweep_const(all, request_.kernels, take);
     return faces;
   }
 

@@ -48,19 +48,19 @@ void sort_blocked(std::vector<SweepContact>& pairs) {
 
 CertificateSweeper::CertificateSweeper(const Assembly& assembly, const PairStates& pairs,
                                        const CertificateOptions& options, CertificateDevice device)
-    : assembly_(&assembly),
-      options_(options),
+    : options_(options),
       kernels_(front_kernels(options.lanes)),
       tolerance_(pairs.tolerance),
-      store_(assembly, kGhostLength * pairs.tolerance, options.executor),
+      store_(std::make_shared<const AssemblySurfaces>(assembly, pairs, options)),
       device_(std::move(device)),
       near_(store_.spheres()),
       poses_(assembly.components.size()),
       is_moving_(assembly.components.size()),
       guarded_of_(assembly.components.size()),
       is_changed_(assembly.components.size()) {
-  prepare_ghosts(pairs);
-  for (const auto& [key, pair] : guarded_) {
+  options_.prepared = nullptr;
+  for (const auto& [key, pair] : store_.surfaces()->pairs()) {
+    guarded_[key] = pair.guard;
     guarded_of_[key.first.value].push_back(key.second);
     guarded_of_[key.second.value].push_back(key.first);
   }

@@ -23,7 +23,7 @@ namespace dismantle {
 /// poses of all components. Pairs without ghost surfaces (PairGuard) are ignored.
 class CertificateSweeper {
  public:
-  /// All components in the assembled state, none grabbed. `assembly` must outlive the sweeper.
+  /// All components in the assembled state, none grabbed.
   CertificateSweeper(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options,
                      CertificateDevice device = {});
 
@@ -105,6 +105,8 @@ class CertificateSweeper {
   /// Ends the step.
   void end_step() { depth_tests_left_ = kUnlimited; }
 
+  /// What other engines can share.
+  const std::shared_ptr<const AssemblySurfaces>& surfaces() const { return store_.surfaces(); }
   /// The tree of a component.
   const SolidTree& solid(ComponentId c) const { return store_.solid(c); }
   /// The options.
@@ -120,8 +122,6 @@ class CertificateSweeper {
   struct PairSweep;
   struct PartTask;
 
-  /// Finds the ghost surfaces of components that touch or overlap in the assembled state.
-  void prepare_ghosts(const PairStates& pairs);
   void set_parted(ComponentId a, ComponentId b, bool parted);
   /// As set_parted(); keeps the count of pairs that have parted.
   void change_parted(ComponentId a, ComponentId b, bool parted);
@@ -144,7 +144,7 @@ class CertificateSweeper {
   };
   SeenMotion motion_past(const ScrewMotion& motion, ComponentId moving, ComponentId fixed) const;
   /// The shape of a component, built when first asked for.
-  const SolidShape& shape(ComponentId c);
+  const SolidShape& shape(ComponentId c) const { return *surfaces()->shape(c, options_.executor); }
   /// How the surface of the first component was found to be shallow in the second one.
   using KnownDepth = std::map<std::pair<ComponentId, ComponentId>, ShallowParts>;
   /// Adds the contact of components whose depth is bounded, if there is one up to a time. @param known may be null
@@ -187,12 +187,10 @@ class CertificateSweeper {
   static TrianglePairTest triangle_pair_test(const PairSweep& pair, PartTask& task, double window);
   static void finish(CertificateSweep& result, double window);
 
-  const Assembly* assembly_;
   CertificateOptions options_;
   FrontKernels kernels_;
   double tolerance_;
   std::map<std::pair<ComponentId, ComponentId>, GuardedPair> guarded_;  ///< Those with an allowance of their own.
-  std::map<ComponentId, std::shared_ptr<const SolidShape>> shapes_;     ///< Of components whose depth is bounded.
   KnownDepth known_depth_;                                              ///< Since the last jump.
   FrontStore store_;
   CertificateDevice device_;

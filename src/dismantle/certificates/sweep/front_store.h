@@ -1,42 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/assembly/assembly.h"
 #include "dismantle/certificates/front/certificate_front.h"
-#include "dismantle/certificates/ghosts/find_guards.h"
-#include "dismantle/certificates/sweep/bounding_spheres.h"
-#include "dismantle/exec/executor.h"
-#include "dismantle/surface/solid_tree.h"
+#include "dismantle/certificates/sweep/assembly_surfaces.h"
 
 #include <cstddef>
 #include <map>
+#include <memory>
+#include <set>
 #include <utility>
 #include <vector>
 
 namespace dismantle {
 
-/// The one of two components that is represented by its ghost surface.
-enum class GhostOf : std::uint8_t { None, First, Second };
-
-/// The trees of an assembly's components and of their ghost surfaces, and the fronts between pairs of them, which are
-/// kept between sweeps.
+/// The fronts between pairs of an assembly's components, which are kept between sweeps.
 class FrontStore {
  public:
-  /// Builds all trees. The assembly must outlive the store.
-  /// @param ghost_length largest displacement of a ghost surface [mm]
-  FrontStore(const Assembly& assembly, double ghost_length, const Executor& executor);
+  explicit FrontStore(std::shared_ptr<const AssemblySurfaces> surfaces) : surfaces_(std::move(surfaces)) {}
 
+  /// The surfaces.
+  const std::shared_ptr<const AssemblySurfaces>& surfaces() const { return surfaces_; }
   /// The tree of a component.
-  const SolidTree& solid(ComponentId c) const { return solids_[c.value]; }
+  const SolidTree& solid(ComponentId c) const { return surfaces_->solid(c); }
   /// The tree of a component's ghost surface with respect to another component: its own, unless the two have a pair of
   /// their own.
   const SolidTree& ghost(ComponentId c, ComponentId other) const;
-  /// Gives pairs of components the ghost surfaces of their own that were found for them.
-  void set_ghosts(Span<const FoundGuard> guards, const Executor& executor);
   /// Uses the ghosts that two components have of their own, or those that they have against all others.
   void use_own_ghosts(ComponentId a, ComponentId b, bool own);
   /// The bounding spheres of all components.
-  const BoundingSpheres& spheres() const { return spheres_; }
+  const BoundingSpheres& spheres() const { return surfaces_->spheres(); }
 
   /// A new front of two components: the pair of the roots; `a` moves. @param ghost of `a` or of `b`
   CertificateFront new_front(ComponentId a, ComponentId b, GhostOf ghost) const;
@@ -52,31 +44,22 @@ class FrontStore {
   std::size_t size(const std::vector<bool>& is_moving) const;
 
  private:
-  /// Components a < b.
-  using PairKey = std::pair<ComponentId, ComponentId>;
   struct Entry {
     CertificateFront front;
     bool b_moves = false;
     Pose fixed_pose;  ///< Of the fixed component in the last sweep.
   };
 
-  /// Finds mating threads and computes the radial bounds of components with a common axis in the assembled state, so
-  /// that no step has to.
-  void prepare_radial(const Executor& executor);
-
-  /// Two components a < b, and the one of which the ghost is meant.
-  using FrontKey = std::pair<PairKey, GhostOf>;
   static FrontKey key_of(ComponentId x, ComponentId y, GhostOf ghost);
 
-  std::vector<SolidTree> solids_, ghosts_;
-  struct PairTrees {
-    SolidTree ghosts[2];
-    bool in_use = true;
-  };
-  std::map<PairKey, PairTrees> pair_ghosts_;  ///< Pairs that have some of their own.
-  BoundingSpheres spheres_;
+  /// The ghosts that two components a < b have of their own, and use; else null.
+  const AssemblySurfaces::SharedTree* ghosts_in_use(const PairKey& pair) const {
+    return parted_.count(pair) > 0 ? nullptr : surfaces_->own_ghosts(pair);
+  }
+
+  std::shared_ptr<const AssemblySurfaces> surfaces_;
+  std::set<PairKey> parted_;  ///< Pairs whose own ghosts are not in use.
   std::map<FrontKey, Entry> fronts_;
-  std::map<FrontKey, std::vector<ThreadMatch>> threads_;  ///< Pairs without mating threads have no entry.
 };
 
 }  // namespace dismantle

@@ -29,7 +29,7 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
   }
   const RigidTransform start = transform_from_pose(motion.start), end = transform_from_pose(motion.end);
   const double way = std::max(length(end.translation - start.translation), tolerance_);
-  SweptPair swept{shapes_.at(motion.moving).get(), shapes_.at(motion.fixed).get(), start, end};
+  SweptPair swept{&shape(motion.moving), &shape(motion.fixed), start, end};
   swept.until = until;
   if (known) {
     swept.known_a = &(*known)[{motion.moving, motion.fixed}];
@@ -62,12 +62,6 @@ void CertificateSweeper::sweep_depths(const std::vector<SeenMotion>& motions, do
     for (const SweepContact& b : result.blocked) until = std::min(until, b.toi + window);
     sweep_depth(motion, DeepSearch::First, result, until, &known_depth_);
   }
-}
-
-const SolidShape& CertificateSweeper::shape(ComponentId c) {
-  std::shared_ptr<const SolidShape>& known = shapes_[c];
-  if (!known) known = std::make_shared<const SolidShape>((*assembly_)[c], options_.executor);
-  return *known;
 }
 
 void CertificateSweeper::part_swept(const std::vector<PairSweep>& pairs) {

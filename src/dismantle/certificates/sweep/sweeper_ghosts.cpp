@@ -7,21 +7,6 @@
 
 namespace dismantle {
 
-void CertificateSweeper::prepare_ghosts(const PairStates& pairs) {
-  std::vector<ComponentTrees> trees;
-  for (std::uint32_t c = 0; c < poses_.size(); ++c)
-    trees.push_back({&solid(ComponentId(c)), &store_.ghost(ComponentId(c), ComponentId(c))});
-  const std::vector<FoundGuard> guards =
-      find_guards({assembly_, &pairs, trees, options_.executor, kernels_, options_.keep_going});
-  store_.set_ghosts(guards, options_.executor);
-  for (const FoundGuard& found : guards) {
-    guarded_[{found.a, found.b}] = found.guard;
-    if (found.guard.guard != PairGuard::Depth) continue;
-    shapes_[found.a] = found.shapes[0];
-    shapes_[found.b] = found.shapes[1];
-  }
-}
-
 GuardedPair CertificateSweeper::guarded(ComponentId a, ComponentId b) const {
   const auto found = guarded_.find(std::minmax(a, b));
   if (found != guarded_.end() && !found->second.parted) return found->second;

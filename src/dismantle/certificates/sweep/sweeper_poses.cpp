@@ -16,7 +16,7 @@ void CertificateSweeper::grab(Span<const ComponentId> components) {
   for (const ComponentId c : moving_) {
     DISMANTLE_EXPECT(poses_[c.value] == pose());
     is_moving_[c.value] = true;
-    box.extend(assembled_bounds((*assembly_)[c]));
+    box.extend(assembled_bounds(surfaces()->assembly()[c]));
   }
   center_ = box.empty() ? Vec3{} : box.center();
   radius_ = 0;
