@@ -55,6 +55,14 @@ Result<std::vector<StepPreference>> Arguments::preferences() const {
   return preferences;
 }
 
+Result<double> Arguments::effort() const {
+  const auto found = command_.find("effort");
+  if (found == command_.end()) return 1.0;
+  if (!found->is_number() || !(found->get<double>() > 0) || found->get<double>() > kMaxEffort)
+    return wrong("effort", "a number above 0 and at most 1000");
+  return found->get<double>();
+}
+
 Result<std::optional<Vec3>> Arguments::direction() const {
   const auto found = command_.find("direction");
   if (found == command_.end() || found->is_null()) return std::optional<Vec3>{};

@@ -30,6 +30,8 @@ class Arguments {
   Result<std::vector<ComponentId>> list(const char* name) const;
   /// The member `prefer`, the most important first; empty if it is missing.
   Result<std::vector<StepPreference>> preferences() const;
+  /// The member `effort`, above 0 and at most kMaxEffort; 1 if it is missing.
+  Result<double> effort() const;
   /// The member `direction`; none if it is missing or null.
   Result<std::optional<Vec3>> direction() const;
   /// A number that is not too large for the wire.
@@ -50,6 +52,7 @@ class Arguments {
   Result<ResponseKind> response() const;
 
   static constexpr std::size_t kMaxText = 1000;  ///< Limit of optional_text() [bytes].
+  static constexpr double kMaxEffort = 1000;     ///< Limit of effort().
 
  private:
   const Json& command_;

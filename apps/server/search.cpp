@@ -50,6 +50,7 @@ PlanOptions plan_options(const SearchRequest& request, const ProgressCallback& p
   options.progress = progress;
   options.engine.prepared = snapshot.prepared;
   options.preferences = request.preferences;
+  options.search_longer(request.effort);
   return options;
 }
 
@@ -88,6 +89,8 @@ SearchResult result_of(const SearchRequest& request, const Plan& plan) {
   result.snapshot = request.snapshot;
   result.complete = plan.complete();
   result.out_of_time = plan.out_of_time;
+  result.effort_spent = plan.effort_spent;
+  result.effort = request.effort;
   result.seconds = plan.seconds;
   result.steps = plan.steps.size();
   for (const Explanation& reason : plan.staying) result.reasons.push_back(translated(snapshot, reason));
@@ -238,9 +241,11 @@ Json search_json(const SearchResult& result) {
                        {"together", to_json(Span<const ComponentId>(e.together))},
                        {"locked", to_json(Span<const ComponentId>(e.locked))}});
   }
-  return {{"kind", name_of(result.kind)},  {"complete", result.complete}, {"out_of_time", result.out_of_time},
-          {"cancelled", result.cancelled}, {"seconds", result.seconds},   {"steps", result.steps},
-          {"reasons", std::move(reasons)}, {"chain", chain_json(result)}};
+  return {{"kind", name_of(result.kind)},        {"complete", result.complete},
+          {"out_of_time", result.out_of_time},   {"effort", result.effort},
+          {"effort_spent", result.effort_spent}, {"cancelled", result.cancelled},
+          {"seconds", result.seconds},           {"steps", result.steps},
+          {"reasons", std::move(reasons)},       {"chain", chain_json(result)}};
 }
 
 }  // namespace dismantle::server

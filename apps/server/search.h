@@ -54,6 +54,7 @@ struct SearchRequest {
   std::vector<ComponentId> fixed;                   ///< Plan: components that never move, none of them a target.
   std::vector<StepPreference> preferences;          ///< See PlanOptions.
   CertificateOptions engine;                        ///< Of the session's engine; one thread is left to the session.
+  double effort = 1;                                ///< See PlanOptions::search_longer().
 };
 
 /// The name of the job, for the user. @pre the request has a snapshot
@@ -71,6 +72,8 @@ struct SearchResult {
   std::shared_ptr<const SessionSnapshot> snapshot;  ///< As requested.
   bool complete = false;                            ///< All targets can be removed.
   bool out_of_time = false;                         ///< The search reached its time limit.
+  bool effort_spent = false;                        ///< See Plan::effort_spent.
+  double effort = 1;                                ///< As requested.
   bool cancelled = false;                           ///< The user ended the search; what was found until then is here.
   double seconds = 0;                               ///< Duration of the search [s].
   std::size_t steps = 0;                            ///< Number of steps of the plan.

@@ -105,7 +105,9 @@ class WorkbenchCommands {
     if (!fixed) return fixed.error();
     const auto preferences = in_.preferences();
     if (!preferences) return preferences.error();
-    return bench_.search({SearchKind::Plan, {}, *targets, *fixed, *preferences, {}});
+    const auto effort = in_.effort();
+    if (!effort) return effort.error();
+    return bench_.search({SearchKind::Plan, {}, *targets, *fixed, *preferences, {}, *effort});
   }
   Result<Json> find_path() {
     const auto components = in_.components();

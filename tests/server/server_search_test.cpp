@@ -95,6 +95,25 @@ TEST_F(ServerSearch, PlansWithWhatIsPreferred) {
     EXPECT_FALSE(client.command("plan", {{"prefer", wrong}})["ok"]) << wrong;
 }
 
+TEST_F(ServerSearch, SearchesAsLongAsAskedForAndSaysWhetherMoreMayHelp) {
+  start_with(scenes::assembly(scenes::open_rings(5)));
+  Client client(address());
+  client.state();
+  search(client, "plan", {{"effort", 0.0005}});
+  const Json early = state_where(client, "search")["search"];
+  EXPECT_EQ(early["effort"], 0.0005);
+  EXPECT_TRUE(early["effort_spent"]);
+  EXPECT_FALSE(early["complete"]);
+  EXPECT_EQ(early["reasons"].size(), 1u);
+  search(client, "plan", {{"effort", 4}});
+  const Json late = client.event_where(
+      "state", [](const Json& s) { return !s["search"].is_null() && s["search"]["effort"] == 4; })["search"];
+  EXPECT_FALSE(late["effort_spent"]);
+  EXPECT_TRUE(late["complete"]);
+  for (const Json& wrong : {Json(0), Json(-1), Json(1000.5), Json("much"), Json{1}, Json(nullptr)})
+    EXPECT_FALSE(client.command("plan", {{"effort", wrong}})["ok"]) << wrong;
+}
+
 TEST_F(ServerSearch, RemovesTheObstaclesAndThenTheTarget) {
   start_with(scenes::stack_in_tube(3));
   Client client(address());

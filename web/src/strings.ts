@@ -161,6 +161,8 @@ const kEnglish = {
   "plan.find": "Find the sequence",
   "plan.complete": "{steps} found in {seconds} s. See the guide below.",
   "plan.partly": "{steps} found in {seconds} s. These components remain:",
+  "plan.longer": "Search longer",
+  "plan.longer.hint": "Some of them may come out along a path that takes longer to find.",
   "plan.ended": "{steps} found in {seconds} s. The search stopped at its time limit.",
   "plan.cancelled": "{steps} found in {seconds} s, until you cancelled. See the guide below.",
   takeOut: "Take out",

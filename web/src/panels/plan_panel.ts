@@ -4,6 +4,18 @@ import type { Session } from "../session.ts";
 import { countText, directionText, text } from "../strings.ts";
 import { kPreferences, type Preference, type Search } from "../wire/messages.ts";
 
+/// A longer search takes so many times the effort of the one before.
+const kLonger = 4;
+/// Largest effort of the command `plan`.
+const kMaxEffort = 1000;
+
+/// What the command `plan` plans.
+interface PlanRequest {
+  targets: number[];
+  fixed: number[];
+  prefer: Preference[];
+}
+
 /// Plans the disassembly of everything or of the selection. The sequence becomes the guide; what blocks the remaining
 /// components is listed.
 export class PlanPanel {
@@ -20,9 +32,12 @@ export class PlanPanel {
   private readonly fixButton: HTMLButtonElement;
   private readonly findButton: HTMLButtonElement;
   private readonly summary = element("p", { id: "plan-found", role: "status" });
+  private readonly longer = element("p", { id: "plan-longer", hidden: true });
+  private readonly longerButton = linkButton(text("plan.longer"), () => void this.searchLonger());
   private readonly reasons = element("ul", { class: "rows", id: "plan-reasons" });
   private fixed: number[] = [];
   private preferred: Preference[] = []; // in the order in which they were ticked
+  private requested: PlanRequest | null = null; // the plan that this page asked for last
   private shownModel = -1;
   private shownSearch: Search | null = null;
 
@@ -36,6 +51,7 @@ export class PlanPanel {
       class: "primary",
       press: () => void this.requestPlan(),
     });
+    this.longer.append(text("plan.longer.hint"), " ", this.longerButton);
     this.node.append(
       panelHeader(text("plan"), () => this.toggle()),
       element("label", {}, this.everything, element("span", {}, text("plan.all"))),
@@ -49,6 +65,7 @@ export class PlanPanel {
       ),
       this.findButton,
       this.summary,
+      this.longer,
       this.reasons,
     );
     session.notifier.subscribe(() => this.update());
@@ -65,7 +82,14 @@ export class PlanPanel {
 
   private async requestPlan(): Promise<void> {
     const targets = this.selected.checked ? this.session.store.selection : [];
-    await this.session.send("plan", { targets, fixed: this.fixed, prefer: this.preferred });
+    this.requested = { targets: [...targets], fixed: [...this.fixed], prefer: [...this.preferred] };
+    await this.session.send("plan", this.requested);
+  }
+
+  /// Plans the same again, and searches longer for sliding and sampled paths.
+  private async searchLonger(): Promise<void> {
+    if (!this.requested || !this.shownSearch) return;
+    await this.session.send("plan", { ...this.requested, effort: kLonger * this.shownSearch.effort });
   }
 
   private preference(preference: Preference): HTMLElement {
@@ -85,7 +109,9 @@ export class PlanPanel {
 
   private update(): void {
     const { state, model, selection, control, jobs } = this.session.store;
-    if (model && model.number !== this.shownModel) [this.fixed, this.shownModel] = [[], model.number];
+    if (model && model.number !== this.shownModel) {
+      [this.fixed, this.requested, this.shownModel] = [[], null, model.number];
+    }
     if (!this.opened) return;
     this.selected.disabled = selection.length === 0;
     if (this.selected.disabled) this.everything.checked = true;
@@ -98,7 +124,7 @@ export class PlanPanel {
     );
     relabel(this.fixButton, text(this.fixed.length > 0 ? "plan.unfix" : "plan.fix"));
     this.fixButton.disabled = this.fixed.length === 0 && selection.length === 0;
-    this.findButton.disabled = !control || !state || jobs.size > 0;
+    this.findButton.disabled = this.longerButton.disabled = !control || !state || jobs.size > 0;
     this.showSearch(state?.search?.kind === "plan" ? state.search : null);
   }
 
@@ -116,6 +142,7 @@ export class PlanPanel {
             : "plan.partly";
     const seconds = search && (search.seconds < 10 ? search.seconds.toFixed(1) : search.seconds.toFixed(0));
     setText(this.summary, key === "" ? "" : text(key, { steps: countText(search!.steps, "step"), seconds: seconds! }));
+    this.longer.hidden = !this.requested || !search?.effort_spent || kLonger * search.effort > kMaxEffort;
     this.reasons.replaceChildren(
       ...(search?.reasons ?? []).map(({ component, direction, blockers }) => {
         const name = this.session.nameOf(component);

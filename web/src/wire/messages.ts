@@ -81,6 +81,10 @@ export interface Search {
   kind: "plan" | "find_path" | "why";
   complete: boolean;
   out_of_time: boolean;
+  /// How many times as long as usual it searched for sliding and sampled paths.
+  effort: number;
+  /// With more effort, components that remain may still come out.
+  effort_spent: boolean;
   cancelled: boolean;
   seconds: number;
   steps: number;
@@ -194,7 +198,7 @@ export interface Commands {
   isolate: [Components, object];
   restore: [object, object];
   reset: [object, object];
-  plan: [{ targets?: number[]; fixed?: number[]; prefer?: Preference[] }, { job: number }];
+  plan: [{ targets?: number[]; fixed?: number[]; prefer?: Preference[]; effort?: number }, { job: number }];
   find_path: [Components, { job: number }];
   why: [Components, { job: number }];
   instructions: [

@@ -115,6 +115,45 @@ test("preferences are sent in the order they were ticked", async () => {
   await viewer.press("l");
 });
 
+test("where more effort may find more, the same is planned again with four times the effort", async () => {
+  const blocked = await viewer.index("stage plate");
+  await viewer.press("l");
+  // A plan that ends early for a component that cannot get past the others, all of which are fixed.
+  const plans = await viewer.page.evaluateHandle((free) => {
+    const { session } = window.dismantle!.app;
+    const sent: object[] = [];
+    const send = session.send.bind(session);
+    session.send = ((name: string, members: { effort?: number }) => {
+      if (name !== "plan") return send(name as "plan", members);
+      sent.push(members);
+      const fixed = session.store.state!.components.map((_, c) => c).filter((c) => c !== free);
+      return send(name, { ...members, fixed, effort: members.effort ?? 1e-4 });
+    }) as typeof session.send;
+    return { sent, restore: () => (session.send = send) };
+  }, blocked);
+  assert.ok(await viewer.page.isHidden("#plan-longer"));
+  await viewer.page.click("#plan-find");
+  await viewer.page.waitForSelector("#plan-longer:visible");
+  await viewer.page.click("#plan-longer button");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.search?.effort === 4e-4);
+  await viewer.idle();
+  const [first, second] = await plans.evaluate(({ sent, restore }) => {
+    restore();
+    return sent;
+  });
+  assert.deepEqual(second, { ...first, effort: 4e-4 });
+  assert.deepEqual(
+    (await search())!.reasons.map(({ component }) => component),
+    [blocked],
+  );
+  await viewer.page.click("#plan-find");
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.search?.complete);
+  assert.ok(await viewer.page.isHidden("#plan-longer"));
+  await viewer.idle();
+  await viewer.click("#guide-close");
+  await viewer.press("l");
+});
+
 test("blockers are named, highlighted, and pointed at by arrows", async () => {
   await viewer.select("stage plate");
   const before = await viewer.picture();
