@@ -169,6 +169,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response->set(http::field::cache_control, "no-store");
     if (!content.file_name.empty())
       response->set(http::field::content_disposition, attachment_disposition(content.file_name));
+    if (content.status == 405) response->set(http::field::allow, "GET, POST");
     add_security_headers(response->base());
     response->body() = {sent_body_->data(), sent_body_->size()};
     response->keep_alive(keep_alive == KeepAlive::Yes && header_->is_done() && header_->get().keep_alive());

@@ -15,7 +15,7 @@ class Engine {
   Engine(const CheckedHolder& states, int threads)
       : states_(states),
         executor_(executor_of(threads)),
-        engine_(*states->assembly, states->pairs, {executor_, widest_lanes()}) {}
+        engine_(*states->assembly, states->pairs, engine_options(states, threads)) {}
 
   const Assembly& assembly() const { return *states_->assembly; }
 
@@ -273,6 +273,21 @@ void bind_contacts(py::module_& module) {
 }
 
 }  // namespace
+
+CertificateOptions engine_options(const CheckedHolder& states, int threads) {
+  CertificateOptions options{executor_of(threads), widest_lanes()};
+  options.prepared = without_gil([&] {
+    const std::lock_guard lock(*states->preparing);
+    if (!states->prepared) states->prepared = CertificateEngine(*states->assembly, states->pairs, options).surfaces();
+    return states->prepared;
+  });
+  return options;
+}
+
+std::shared_ptr<const AssemblySurfaces> prepared_already(const CheckedHolder& states) {
+  const std::unique_lock lock(*states->preparing, std::try_to_lock);
+  return lock ? states->prepared : nullptr;
+}
 
 ResponseKind response_of(const std::string& name) {
   for (const ResponseKind kind : {ResponseKind::Stop, ResponseKind::Touch, ResponseKind::Slide})

@@ -61,6 +61,7 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
     raise_usage("the plan cannot take fasteners '" + fasteners + "' (there is no such order); give 'first' or 'any'");
   options.fasteners = fasteners == "any" ? FastenerOrder::Ignored : FastenerOrder::First;
   options.engine.executor = executor_of(threads);
+  options.engine.prepared = prepared_already(states);
   options.progress = watched.callback();
   if (!(time_limit >= 0)) raise_usage("the plan cannot be made (the time limit is negative); give 0 for none");
   if (!(effort >= 0 && effort <= 1e6))
@@ -78,7 +79,7 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
 ExplanationView why(const CheckedHolder& states, const py::object& component, int threads) {
   const ComponentId id = component_of(*states->assembly, component);
   PlanOptions options;
-  options.engine = {executor_of(threads), widest_lanes()};
+  options.engine = engine_options(states, threads);
   return {states, without_gil([&] { return why_blocked(*states->assembly, states->pairs, id, options); })};
 }
 

@@ -18,7 +18,7 @@ constexpr double kAdvance = 0.02;  // of an automatic motion, in one step [s]
 class SessionObject {
  public:
   SessionObject(const CheckedHolder& states, int threads)
-      : states_(states), session_(*states->assembly, states->pairs, {executor_of(threads), widest_lanes()}) {}
+      : states_(states), session_(*states->assembly, states->pairs, engine_options(states, threads)) {}
 
   const Assembly& assembly() const { return *states_->assembly; }
 

@@ -26,8 +26,9 @@ TEST(SoakBatch, DependsOnItsSeedAlone) {
   const PathAuditor auditor(assembly);
   BatchOptions options;
   options.targets = 12;
-  const Batch first = run_batch(assembly, states, auditor, 5, options),
-              again = run_batch(assembly, states, auditor, 5, options);
+  const auto surfaces = CertificateEngine(assembly, states).surfaces();
+  const Batch first = run_batch(assembly, states, nullptr, auditor, 5, options),
+              again = run_batch(assembly, states, surfaces, auditor, 5, options);
   EXPECT_EQ(first.result.steps, again.result.steps);
   EXPECT_EQ(first.path.moves.size(), again.path.moves.size());
   EXPECT_EQ(first.result.straight_motions, again.result.straight_motions);

@@ -27,6 +27,7 @@ def test_finds_the_order_and_a_path_that_passes_the_audit(states):
 def test_says_what_blocks_a_component(states):
     plan = dismantle.plan(states, targets=["back"], fixed=WALLS + ["front"])
     assert not plan.complete and plan.steps == []
+    assert not plan.effort_spent  # it only rattles
     assert plan.staying[0].component == "back" and "back is blocked by" in str(plan.staying[0])
     why = dismantle.why(states, "back")
     assert len(why.blocked_by) == 1 and "back" in why.comes_out_with
@@ -36,6 +37,8 @@ def test_says_what_blocks_a_component(states):
 def test_takes_an_effort(states):
     for effort in (0, 0.5, 2):
         assert [s.components for s in dismantle.plan(states, targets="back", fixed=WALLS, effort=effort).steps]
+    stays = {"targets": "back", "fixed": WALLS + ["front"]}
+    assert dismantle.plan(states, **stays, effort=0).effort_spent
     with pytest.raises(dismantle.Error, match="effort"):
         dismantle.plan(states, effort=-1)
 

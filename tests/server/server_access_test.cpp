@@ -143,6 +143,7 @@ TEST_F(ServerAccess, SendsNoBodyForHead) {
   const std::string head = "HEAD / HTTP/1.1\r\nHost: " + address().host() + "\r\n\r\n";
   const std::string response = testing_client::exchange(address(), head);
   EXPECT_EQ(response.rfind("HTTP/1.1 405 ", 0), 0u) << response;
+  EXPECT_NE(response.find("\r\nAllow: GET, POST\r\n"), std::string::npos) << response;
   EXPECT_EQ(response.find("\r\n\r\n") + 4, response.size()) << response;
 }
 

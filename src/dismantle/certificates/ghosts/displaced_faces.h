@@ -21,7 +21,7 @@ class DisplacedFaces {
 
   /// Displaced vertices, and how many faces of the other component their faces meet; touching counts.
   struct Meeting {
-    std::vector<Vec3> vertices;
+    std::vector<Vec3> vertices;          ///< Displaced [mm, assembled].
     std::vector<std::uint32_t> of_face;  ///< Number of faces that each face meets.
     std::size_t total = 0;               ///< Of all faces.
   };

@@ -30,8 +30,8 @@ using FrontKey = std::pair<PairKey, GhostOf>;
 /// guards of pairs in the assembled state. Immutable; may be shared by engines on any threads.
 class AssemblySurfaces {
  public:
-  using SharedTree = std::shared_ptr<const SolidTree>;
-  using SharedShape = std::shared_ptr<const SolidShape>;
+  using SharedTree = std::shared_ptr<const SolidTree>;    ///< A tree that several may use.
+  using SharedShape = std::shared_ptr<const SolidShape>;  ///< A shape that several may use.
 
   /// The guard of a pair, and the surfaces that it needs.
   struct PairSurfaces {

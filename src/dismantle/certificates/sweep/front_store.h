@@ -16,6 +16,7 @@ namespace dismantle {
 /// The fronts between pairs of an assembly's components, which are kept between sweeps.
 class FrontStore {
  public:
+  /// No fronts yet. @param surfaces never null
   explicit FrontStore(std::shared_ptr<const AssemblySurfaces> surfaces) : surfaces_(std::move(surfaces)) {}
 
   /// The surfaces.
