@@ -36,8 +36,6 @@ class BlockingTable {
 
   /// Registers a unit direction; directions within 1e-6 of each other share an id.
   DirectionId add_direction(const Vec3& unit);
-  /// The engine.
-  const CertificateEngine& engine() const { return engine_; }
   /// The unit vector of a direction.
   const Vec3& direction(DirectionId d) const { return directions_[d.value]; }
   /// The opposite direction.

@@ -16,7 +16,7 @@ class OverlapSearch {
   OverlapSearch(const Assembly& assembly, const PairStates& states, BlockingTable& table,
                 const CertificateOptions& options)
       : assembly_(assembly), states_(states), table_(table), options_(options) {
-    options_.prepared = table.engine().surfaces();
+    options_.prepared = nullptr;  // shapes that are shared would keep what is found for each depth that is tried
   }
 
   /// The straight way out of `present` along one of `directions` for which pairs of a component and its group would

@@ -147,8 +147,8 @@ test("where more effort may find more, the same is planned again with four times
     [blocked],
   );
   await viewer.page.click("#plan-find");
-  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.search?.complete);
-  assert.ok(await viewer.page.isHidden("#plan-longer"));
+  await viewer.page.waitForFunction(() => window.dismantle!.app.session.store.state!.search?.effort === 1);
+  assert.equal(await viewer.page.isVisible("#plan-longer"), (await search())!.effort_spent);
   await viewer.idle();
   await viewer.click("#guide-close");
   await viewer.press("l");

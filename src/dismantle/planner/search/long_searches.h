@@ -47,7 +47,9 @@ class LongSearches {
   template <class Search>
   std::optional<PlanStep> find(Span<const ComponentId> components, const ComponentSet& body,
                                const MotionValidator& validator, const KeepGoing& keep_going, const Search& search) {
-    for (std::size_t effort = kFirstEffort; effort < kEffortGrowth * max_effort_; effort *= kEffortGrowth)
+    // Less than the first effort is one round with what there is.
+    const std::size_t end = kEffortGrowth * std::max(max_effort_, kFirstEffort);
+    for (std::size_t effort = kFirstEffort; effort < end; effort *= kEffortGrowth)
       for (const ComponentId c : components) {
         InVain& before = in_vain_[c];
         if (before.effort >= effort && body.has_all(before.met)) continue;
