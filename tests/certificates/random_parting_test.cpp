@@ -64,5 +64,31 @@ TEST(RandomParting, LetsNothingBackWhereTheAuditDoesNot) {
   EXPECT_GT(kept, 20);
 }
 
+/// A pin in a hole that is too small for it, their facets where they are deepest in each other.
+TEST(RandomParting, LetsAPinBackThatIsHardlyOffItsHoleAsTheAuditDoes) {
+  for (const std::uint32_t sides : {12u, 24u})
+    for (const double apart : {0.3, 0.9, 4.0, 40.0}) {
+      const Pose half_a_facet{{}, quat_about({0, 0, 1}, kTurn / (2 * sides))};
+      const Assembly assembly =
+          scenes::assembly({scenes::component("pin", scenes::moved(scenes::tube(5.05, 0, 0, 10, sides), half_a_facet)),
+                            scenes::component("plate", scenes::tube(8, 5, 0, 10, sides))});
+      const PairStates states = states_of(assembly);
+      Motion motion{ResponseKind::Touch, {{{"pin"}, {{0, {}}}}}};
+      double time = 0;
+      for (const double z : {5.0, 10 + apart * kTolerance, 9.0, 5.0})
+        motion.moves[0].targets.push_back({++time, {{0, 0, z}, {}}});
+      CertificateEngine engine(assembly, states);
+      const ComponentPair pair = engine.overlapping_pairs().at(0);
+      EXPECT_GE(pair.allowed_depth, states.pairs[0].depth + 1.1 * kTolerance);
+      const Result<PlayedMotion> played = play_motion(assembly, states, motion, engine);
+      ASSERT_TRUE(played.ok()) << played.error().message;
+      EXPECT_EQ(engine.overlapping_pairs().empty(), apart == 40) << sides << " sides, apart by " << apart;
+      EXPECT_EQ(played->steps.back().result.reached, apart < 40);
+      const AuditReport report = audit_path(assembly, played->path);
+      EXPECT_TRUE(report.holds()) << sides << " sides, apart by " << apart << ": "
+                                  << (report.violations.empty() ? "" : report.violations[0].message);
+    }
+}
+
 }  // namespace
 }  // namespace dismantle

@@ -20,6 +20,9 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kFinest = 1.0 / 16;
 /// Surfaces that are nearer than this share of the tolerance may touch, as far as rounding can tell.
 constexpr double kTouching = 1e-6;
+/// Cylinders that turn in each other are allowed at least this share of their depth, and of the tolerance, more than
+/// others: twice the accuracy to which the audit knows depths.
+constexpr double kTurnsShare = 0.02, kTurns = 0.2;
 
 /// The guard of a pair for which ghosts were searched; nothing where it needs none.
 /// @param one_is_thick true if one of the two is a solid without walls thinner than twice a length [mm]
@@ -35,9 +38,11 @@ std::optional<FoundGuard> guard_of(const ComponentPair& pair, std::optional<Pair
   }
   if (found->max_length == 0) return std::nullopt;
   guard.displaced = found->max_length;
-  if (found->turning > 0)
-    guard.parting = guard.allowed = std::max(guard.allowed, found->turning + tolerance);
-  else if (found->retracted || one_is_thick(found->max_length))
+  if (found->turning > 0) {
+    guard.parting = std::max(guard.allowed, found->turning + tolerance);
+    // The path says by its allowance that facets come apart and meet again, also where they are deepest at the start.
+    guard.allowed = std::max(guard.parting, guard.allowed + std::max(kTurnsShare * pair.depth, kTurns * tolerance));
+  } else if (found->retracted || one_is_thick(found->max_length))
     // Thin parts and sheets may have passed each other by less than their allowance, but not the middle of a wall that
     // no displacement gets past.
     guard.parting = kApartShare * tolerance;
