@@ -17,8 +17,9 @@ TEST_F(ServerScene, TellsTheFirstPageWhyAFileWasNotOpenedBeforeItCame) {
   ASSERT_TRUE(server_->open_file(root() / "broken.step").ok());
   std::this_thread::sleep_for(std::chrono::seconds(2));
   testing_client::Client client(address());
-  const Json job = client.event("job");
-  EXPECT_EQ(job["status"], "failed");
+  // On a busy machine the file may be read still.
+  const Json job = client.event_where("job", [](const Json& j) { return j["status"] != "running"; });
+  ASSERT_EQ(job["status"], "failed");
   EXPECT_NE(job["error"].get<std::string>().find("broken.step"), std::string::npos) << job;
 }
 
