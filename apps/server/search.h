@@ -35,7 +35,7 @@ struct SessionSnapshot {
   PairStates pairs;                     ///< Of `assembly`.
   std::vector<ComponentId> components;  ///< Ids in the session, ascending; index: component of `assembly`.
   std::vector<Pose> poses;              ///< Poses in the session; index as above.
-  /// What the session's engine has prepared; the search takes what is in the same place.
+  /// Surfaces prepared by the session's engine; the search uses those of components that are still in place.
   std::shared_ptr<const AssemblySurfaces> prepared;
 };
 

@@ -44,16 +44,17 @@ struct CheckedAssembly {
   std::shared_ptr<Assembly> assembly;  ///< Never null.
   PairStates pairs;                    ///< Of the assembly: what the engine allows.
   Clashes clashes;                     ///< Of the assembly: what people see.
-  /// What engines share of it (engine_options()); null until one is made.
+  /// Surfaces that its engines share; null until engine_options() prepares them.
   std::shared_ptr<const AssemblySurfaces> prepared = {};
   std::unique_ptr<std::mutex> preparing = std::make_unique<std::mutex>();  ///< Held while `prepared` is made.
 };
 /// Shared by the Python objects that use it.
 using CheckedHolder = std::shared_ptr<CheckedAssembly>;
 
-/// Options of an engine that takes what others have prepared; the first one prepares it, without Python's lock.
+/// Options of an engine that uses the shared surfaces. The first call prepares them, with the GIL released.
 CertificateOptions engine_options(const CheckedHolder& states, int threads);
-/// What engines of it have prepared; null if there is nothing yet. For what can be cancelled while it prepares.
+/// The surfaces if they are prepared already, else null. For operations that can be cancelled while they prepare their
+/// own.
 std::shared_ptr<const AssemblySurfaces> prepared_already(const CheckedHolder& states);
 
 /// Carries an Error to Python, where it becomes an exception with the same message.

@@ -3,7 +3,6 @@
 #include "dismantle/certificates/sweep/assembly_surfaces.h"
 
 #include "tests/certificates/grabbed_component.h"
-#include "tests/support/puzzle_scenes.h"
 #include "tests/support/random_scenes.h"
 
 #include <gtest/gtest.h>
@@ -27,12 +26,8 @@ Assembly overlapping_assembly(std::mt19937_64& random) {
   for (int k = 0; k < 4; ++k)
     assembly.components.push_back(
         scenes::component("row" + std::to_string(k), scenes::box({20 + 2.97 * k, 0, 0}, {23 + 2.97 * k, 3, 3})));
-  const TriangleMesh rod = scenes::box_block({{{-7, -5.4, -4.6, -3}, {-3, 5, 9}, {-2, -0.4, 0.4, 2}}},
-                                             [](int i, int j, int k) { return j == 1 || (i == 1 && k == 1); });
-  const TriangleMesh flange =
-      scenes::box_block({{{-10, 0, 10}, {0, 1, 10}, {-5, 5}}}, [](int i, int j, int) { return i == 1 || j == 0; });
-  assembly.components.push_back(scenes::component("rod", rod));
-  assembly.components.push_back(scenes::component("flange", flange));
+  Assembly pierced = rod_through_flange();
+  for (Component& component : pierced.components) assembly.components.push_back(std::move(component));
   return assembly;
 }
 

@@ -75,16 +75,6 @@ TEST(FindGuards, LetARodOutOfAnObliqueHoleAlongItsAxisOnly) {
   }
 }
 
-/// A rod with a head, through a flange that has no hole for it, on a block. Rod and flange are so thin that depth does
-/// not keep them where they are; the head and the block are not.
-Assembly rod_through_flange() {
-  const TriangleMesh rod = scenes::box_block({{{-7, -5.4, -4.6, -3}, {-3, 5, 9}, {-2, -0.4, 0.4, 2}}},
-                                             [](int i, int j, int k) { return j == 1 || (i == 1 && k == 1); });
-  const TriangleMesh flange =
-      scenes::box_block({{{-10, 0, 10}, {0, 1, 10}, {-5, 5}}}, [](int i, int j, int) { return i == 1 || j == 0; });
-  return scenes::assembly({scenes::component("rod", rod), scenes::component("flange", flange)});
-}
-
 TEST(FindGuards, LetARodThroughAFlangeWithoutAHoleMoveAlongItsAxisOnly) {
   const Assembly assembly = rod_through_flange();
   const PairStates states = states_of(assembly);

@@ -39,7 +39,7 @@ struct StraightContact {
   Vec3 point;           ///< Where the two faces meet [mm, world].
 };
 
-/// What engines prepare of an assembly: trees, ghost surfaces, allowances.
+/// The trees, ghost surfaces and allowances that engines prepare for an assembly.
 class AssemblySurfaces;
 
 /// Options of the method `certificates`.
@@ -57,9 +57,9 @@ struct CertificateOptions {
   /// Tests of triangle pairs and pieces of surfaces after which a step of response Slide ends early, at a pose that is
   /// free, or 0 for no limit. The next step continues. The limit does not apply to the first try of a step.
   std::size_t slide_tests = 0;
-  /// What another engine has prepared (CertificateEngine::surfaces()), or null. Components and pairs of this assembly
-  /// that have the same meshes and allowances in the same place are taken from there, which takes no time. The results
-  /// do not depend on it.
+  /// Surfaces of another engine (CertificateEngine::surfaces()) to reuse, or null. Components with the same mesh in the
+  /// same place, and pairs of them with the same state and allowances, are not prepared again. The results do not
+  /// depend on it.
   std::shared_ptr<const AssemblySurfaces> prepared = {};
 };
 
@@ -113,7 +113,7 @@ class CertificateEngine final : public MotionEngine {
   /// assembled poses whatever was moved since; none if it is free. May be called by many threads at the same time.
   std::optional<StraightContact> straight_contact(ComponentId moving, ComponentId fixed, const Vec3& displacement,
                                                   StraightSearch search) const;
-  /// What was prepared, for other engines of this assembly or of a part of it.
+  /// The prepared surfaces, which other engines of this assembly or of a part of it can reuse.
   std::shared_ptr<const AssemblySurfaces> surfaces() const;
   /// Number of pairs of nodes of the fronts of the moving set.
   std::size_t front_size() const;

@@ -2,19 +2,12 @@
 import { button, element, linkButton, panelHeader, relabel, setText } from "../dom.ts";
 import type { Session } from "../session.ts";
 import { countText, directionText, text } from "../strings.ts";
-import { kPreferences, type Preference, type Search } from "../wire/messages.ts";
+import { type Commands, kPreferences, type Preference, type Search } from "../wire/messages.ts";
 
 /// A longer search takes so many times the effort of the one before.
 const kLonger = 4;
 /// Largest effort of the command `plan`.
 const kMaxEffort = 1000;
-
-/// What the command `plan` plans.
-interface PlanRequest {
-  targets: number[];
-  fixed: number[];
-  prefer: Preference[];
-}
 
 /// Plans the disassembly of everything or of the selection. The sequence becomes the guide; what blocks the remaining
 /// components is listed.
@@ -37,7 +30,7 @@ export class PlanPanel {
   private readonly reasons = element("ul", { class: "rows", id: "plan-reasons" });
   private fixed: number[] = [];
   private preferred: Preference[] = []; // in the order in which they were ticked
-  private requested: PlanRequest | null = null; // the plan that this page asked for last
+  private requested: Commands["plan"][0] | null = null; // the plan that this page asked for last
   private shownModel = -1;
   private shownSearch: Search | null = null;
 

@@ -25,9 +25,9 @@ class DisplacedFaces {
     std::vector<std::uint32_t> of_face;  ///< Number of faces that each face meets.
     std::size_t total = 0;               ///< Of all faces.
   };
-  /// What the displaced faces meet.
+  /// Counts the pairs of faces that meet.
   Meeting meeting(std::vector<Vec3> vertices) const;
-  /// What they meet with other vertices, if that is less than `limit`. Tests only the faces that change.
+  /// Counts them for other vertices, testing only the faces that change; nothing if there are `limit` or more.
   std::optional<Meeting> meeting_less(const Meeting& before, std::vector<Vec3> vertices, std::size_t limit) const;
   /// True if the displaced surface does not meet the other component, and neither is inside the other: as far as a few
   /// of their vertices tell.

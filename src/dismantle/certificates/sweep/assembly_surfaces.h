@@ -26,7 +26,7 @@ using PairKey = std::pair<ComponentId, ComponentId>;
 /// Two components a < b, and the one of which the ghost is meant.
 using FrontKey = std::pair<PairKey, GhostOf>;
 
-/// What the engines of an assembly have in common: the trees of its components and of their ghost surfaces, and the
+/// The surfaces that the engines of an assembly share: the trees of its components and of their ghost surfaces, and the
 /// guards of pairs in the assembled state. Immutable; may be shared by engines on any threads.
 class AssemblySurfaces {
  public:

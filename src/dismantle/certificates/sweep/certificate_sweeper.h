@@ -105,7 +105,7 @@ class CertificateSweeper {
   /// Ends the step.
   void end_step() { depth_tests_left_ = kUnlimited; }
 
-  /// What other engines can share.
+  /// The surfaces, which other engines can share.
   const std::shared_ptr<const AssemblySurfaces>& surfaces() const { return store_.surfaces(); }
   /// The tree of a component.
   const SolidTree& solid(ComponentId c) const { return store_.solid(c); }
