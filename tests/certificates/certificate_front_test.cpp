@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 #include <set>
 
@@ -225,6 +226,66 @@ TEST(CertificateFront, MayStopAtSomeBlockedPairsAndReportsIt) {
   const FrontSweep again = sweep(other);
   EXPECT_TRUE(again.complete);
   EXPECT_EQ(again.blocked, every.blocked);
+}
+
+TEST(CertificateFront, GoesOnWhereASweepWasCut) {
+  const Body a = body_of(scenes::tube(2, 0, 0, 4, 96, 24)), b = body_of(scenes::tube(4, 2.02, -1, 5, 96, 24));
+  PairMotion motion = scenes::pair_motion(a.tree, b.tree, {}, {{0, 0, 0.01}, {}});
+  const TrianglePairTest apart = [](const TrianglePairCandidate&) {
+    TrianglePairVerdict verdict;
+    verdict.certificate.offset = 1e6f;  // it holds for good
+    return verdict;
+  };
+  const FrontKernels kernels = front_kernels(widest_lanes());
+  const auto sweep = [&](CertificateFront& front, std::size_t most) {
+    FrontSweep all;
+    PreparedSweep linear = front.prepare_sweep(motion);
+    linear.max_node_pairs = most;
+    for (std::size_t part = 0; part < front.part_count(); ++part) {
+      const FrontSweep found = front.sweep_part(part, linear, kernels, apart);
+      all.node_pairs += found.node_pairs;
+      all.complete &= found.complete;
+      all.cut |= found.cut;
+    }
+    front.end_sweep(linear, all.complete);
+    return all;
+  };
+  CertificateFront whole(a.tree, b.tree);
+  const FrontSweep once = sweep(whole, SIZE_MAX);
+  EXPECT_TRUE(once.complete);
+  EXPECT_FALSE(once.cut);
+  ASSERT_GT(once.node_pairs, 1200u);
+
+  CertificateFront parts(a.tree, b.tree);
+  std::size_t sum = 0;
+  int sweeps = 0;
+  for (bool is_cut = true; is_cut && sweeps < 1000; ++sweeps) {
+    const FrontSweep found = sweep(parts, 200);
+    EXPECT_NE(found.complete, found.cut);
+    sum += found.node_pairs;
+    is_cut = found.cut;
+  }
+  EXPECT_GT(sweeps, 5);
+  EXPECT_LT(sum, 2 * once.node_pairs) << "what was found is found again";
+  EXPECT_EQ(sweep(parts, SIZE_MAX).node_pairs, 0u) << "all certificates hold";
+}
+
+TEST(CertificateFront, LooksForSiblingsMoreRarelyWhereNoneMerge) {
+  const Body a = body_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 2.02, -1, 5, 24, 6));
+  CertificateFront front(a.tree, b.tree);
+  const auto searches = [&](int sweeps) {
+    int count = 0;
+    for (int k = 0; k < sweeps; ++k) {
+      count += front.siblings_of(0).empty() ? 0 : 1;
+      uncertified(front, a, b, {}, {{0, 0, 0.01}, {}});
+    }
+    return count;
+  };
+  searches(200);
+  EXPECT_LE(searches(128), 3);
+  // A motion for which most of it has to be separated anew.
+  for (int k = 0; k < 8; ++k) uncertified(front, a, b, {}, {{0.5, 0, 0.01}, quat_about({0, 0, 1}, 0.3 * k)});
+  EXPECT_GE(searches(32), 2);
 }
 
 TEST(CertificateFront, CutsPartsInWhichMostPairsShareANode) {

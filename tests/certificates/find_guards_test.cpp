@@ -6,6 +6,7 @@
 #include "dismantle/certificates/sweep/assembly_surfaces.h"
 #include "tests/certificates/grabbed_component.h"
 #include "tests/support/depth_oracle.h"
+#include "tests/support/faulty_meshes.h"
 #include "tests/support/large_scenes.h"
 #include "tests/support/puzzle_scenes.h"
 #include "tests/support/random_scenes.h"
@@ -187,6 +188,33 @@ TEST(FurtherApart, IsTrueOutsideOfEachOtherAndFromThatDistanceOn) {
     EXPECT_FALSE(apart(0, distance));
     EXPECT_FALSE(apart(-1, distance));
     EXPECT_FALSE(apart(-7, distance)) << "within the floor, 2 mm from its faces";
+  }
+}
+
+TEST(NoneInside, LooksAtEachShellAndAtEveryVertexWhereTheOtherOneIsOpen) {
+  // Two discs as one component, of which the second may be within a box, in its wall, or outside.
+  const auto none_inside_at = [](Vec3 second, bool box_is_open) {
+    TriangleMesh discs = scenes::tube(0.2, 0, -30, -29, 12);
+    discs = scenes::joined(std::move(discs), scenes::moved(scenes::tube(0.2, 0, -0.2, 0.2, 12), {second, {}}));
+    TriangleMesh box = scenes::box({-2, -2, -2}, {2, 2, 2});
+    if (box_is_open) box.faces.pop_back();
+    const Assembly assembly =
+        scenes::assembly({scenes::component("discs", std::move(discs)), scenes::component("box", std::move(box))});
+    const AssemblySurfaces surfaces(assembly, {kTolerance, {}});
+    const SolidShape shapes[] = {SolidShape(assembly.components[0]), SolidShape(assembly.components[1])};
+    EXPECT_EQ(shapes[0].shell_points().size(), 2u);
+    const auto at = [&](std::uint32_t c) {
+      const ComponentId id(c);
+      return ComponentAt{&surfaces.solid(id), &surfaces.ghost(id), {}, [&shapes, c] { return &shapes[c]; }};
+    };
+    EXPECT_EQ(none_inside(at(0), at(1)), none_inside(at(1), at(0)));
+    return none_inside(at(0), at(1));
+  };
+  for (const bool box_is_open : {false, true}) {
+    EXPECT_FALSE(none_inside_at({}, box_is_open));
+    EXPECT_FALSE(none_inside_at({0.5, -0.5, 0.5}, box_is_open));
+    EXPECT_TRUE(none_inside_at({0, 0, 5}, box_is_open));
+    EXPECT_TRUE(none_inside_at({-2.5, 2.5, 0}, box_is_open));
   }
 }
 

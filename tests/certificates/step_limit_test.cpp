@@ -101,6 +101,47 @@ TEST(StepLimit, EndsStepsOfSlideEarlyAndGoesOn) {
   }
 }
 
+TEST(StepLimit, BoundsThePairsOfNodesOfAStepAndGoesOn) {
+  // A ring of many facets close around a torus: the front of the first step is built from its roots.
+  const scenes::SlideScene scene = scenes::ring_on_torus(60'000, 0.01);
+  const PairStates states = states_of(scene.assembly);
+  struct Way {
+    double out = 0;
+    std::size_t of_first = 0, most = 0;
+    int steps = 0, unfinished = 0;
+  };
+  const auto pulled = [&](std::size_t node_pairs, ResponseKind response) {
+    CertificateOptions options;
+    options.node_pairs = node_pairs;
+    Grabbed ring(scene.assembly, states, scene.moving.value, options);
+    Way way;
+    for (int k = 1; k <= 10; ++k) {
+      StepResult made;
+      do {
+        const Pose target{0.05 * k * scene.pull, {}};
+        made = ring.engine.step(target, response);
+        ++way.steps;
+        way.unfinished += made.unfinished ? 1 : 0;
+        if (way.steps == 1) way.of_first = made.cost.node_pairs;
+        way.most = std::max(way.most, made.cost.node_pairs);
+      } while (made.unfinished && way.steps < 2000);
+      way.out = dot(made.pose.position, scene.pull);
+    }
+    return way;
+  };
+  for (const ResponseKind response : {ResponseKind::Slide, ResponseKind::Touch, ResponseKind::Stop}) {
+    SCOPED_TRACE(static_cast<int>(response));
+    constexpr std::size_t kMost = 4000;
+    const Way unbounded = pulled(0, response), bounded = pulled(kMost, response);
+    EXPECT_EQ(unbounded.unfinished, 0);
+    ASSERT_GT(unbounded.of_first, 3 * kMost);  // else it shows nothing
+    EXPECT_GT(bounded.unfinished, 2);
+    EXPECT_LT(bounded.steps, 200);
+    EXPECT_LT(bounded.most, 2 * kMost);
+    EXPECT_NEAR(bounded.out, unbounded.out, 1e-3);
+  }
+}
+
 TEST(StepLimit, KeepsContactsThatAreFarAheadForTheNextStep) {
   // A block that is pushed at a wall from afar, aslant: it stops there, and slides along it.
   const Assembly assembly = scenes::assembly(
@@ -122,27 +163,30 @@ TEST(StepLimit, KeepsContactsThatAreFarAheadForTheNextStep) {
 }
 
 TEST(StepLimit, TakesPartsOutInShortSteps) {
-  // With a limit of 1, a step ends with the first contacts that it finds.
+  CertificateOptions few_tests, few_nodes;
+  few_tests.slide_tests = 1;  // a step ends with the first contacts that it finds
+  few_nodes.node_pairs = 1;   // sweeps are cut
+
   const scenes::SlideScene all[] = {
       scenes::peg_in_hole(24, 0.001),       scenes::peg_in_hole(64, 0), scenes::key_in_slot(0, {0, 1, 0}),
       scenes::key_in_slot(0.01, {0, 0, 1}), scenes::dovetail(0),        scenes::part_in_corner(),
       scenes::press_fit_pin(24, 0.02)};
-  for (const scenes::SlideScene& scene : all) {
-    SCOPED_TRACE(scene.assembly[scene.moving].name);
-    ClassifyOptions classify;
-    classify.tolerance = 0.01;
-    const PairStates states = *classify_pairs(scene.assembly, classify);
-    CertificateOptions options;
-    options.slide_tests = 1;
-    Grabbed part(scene.assembly, states, scene.moving.value, options);
-    scenes::Hand hand(scene, {});
-    double moved = 0;
-    int steps = 0;
-    const int most = 20 + 4 * static_cast<int>(scene.exit_distance / scenes::Hand::Options{}.step);
-    for (; steps < most && moved < scene.exit_distance; ++steps)
-      moved = scenes::distance_moved(scene, part.engine.step(hand.next(), ResponseKind::Slide).pose);
-    EXPECT_GE(moved, scene.exit_distance);
-  }
+  for (const CertificateOptions& options : {few_tests, few_nodes})
+    for (const scenes::SlideScene& scene : all) {
+      SCOPED_TRACE(scene.assembly[scene.moving].name);
+      ClassifyOptions classify;
+      classify.tolerance = 0.01;
+      const PairStates states = *classify_pairs(scene.assembly, classify);
+      Grabbed part(scene.assembly, states, scene.moving.value, options);
+      scenes::Hand hand(scene, {});
+      double moved = 0;
+      int steps = 0;
+      const int most =
+          20 + (options.node_pairs > 0 ? 40 : 4) * static_cast<int>(scene.exit_distance / scenes::Hand::Options{}.step);
+      for (; steps < most && moved < scene.exit_distance; ++steps)
+        moved = scenes::distance_moved(scene, part.engine.step(hand.next(), ResponseKind::Slide).pose);
+      EXPECT_GE(moved, scene.exit_distance);
+    }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace dismantle {
 inline void limit_steps(CertificateOptions& options) {
   options.depth_tests = 600;
   options.slide_tests = 400;
+  options.node_pairs = 30000;
 }
 
 /// Steps to one target of a motion that no hand makes, each of which may end early.

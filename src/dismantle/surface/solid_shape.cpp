@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/surface/solid_shape.h"
 
+#include "dismantle/core/connected_sets.h"
 #include "dismantle/surface/depth/shallow_region.h"
 #include "dismantle/surface/depth/thin_places.h"
 
@@ -16,6 +17,20 @@ struct SolidShape::Regions {
   std::map<std::pair<double, double>, std::unique_ptr<const ShallowRegion>> of_limits;
 };
 
+namespace {
+
+std::vector<Vec3> vertex_of_each_shell(const TriangleMesh& mesh) {
+  ConnectedSets shells(mesh.vertices.size());
+  for (const Face& f : mesh.faces)
+    for (const int k : {1, 2}) shells.join(f.v[0], f.v[k]);
+  std::vector<Vec3> points;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+    if (shells.set_of(v) == v) points.push_back(mesh.vertices[v]);
+  return points;
+}
+
+}  // namespace
+
 SolidShape::SolidShape() = default;
 SolidShape::SolidShape(SolidShape&&) noexcept = default;
 SolidShape& SolidShape::operator=(SolidShape&&) noexcept = default;
@@ -27,6 +42,7 @@ SolidShape::SolidShape(const Component& component, const Executor& executor) {
   surface_ = std::make_unique<const SurfaceTree>(mesh, executor);
   winding_ = std::make_unique<const WindingNumber>(mesh, *surface_);
   regions_ = std::make_unique<Regions>();
+  shell_points_ = vertex_of_each_shell(mesh);
 }
 
 const ShallowRegion& SolidShape::shallow_region(double limit) const {

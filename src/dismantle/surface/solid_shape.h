@@ -8,6 +8,7 @@
 #include "dismantle/surface/winding_number.h"
 
 #include <memory>
+#include <vector>
 
 namespace dismantle {
 
@@ -34,6 +35,9 @@ class SolidShape {
   const SurfaceTree& surface() const { return *surface_; }
   /// Its winding number [mm, assembly frame].
   const WindingNumber& winding() const { return *winding_; }
+  /// One vertex of each connected part of the surface [mm, assembly frame]. Where a closed surface does not meet it,
+  /// the vertex tells for its whole part on which side of that surface it is.
+  const std::vector<Vec3>& shell_points() const { return shell_points_; }
   /// Where no point is deeper than `limit` [mm]; kept, as it is refined where it is asked.
   const ShallowRegion& shallow_region(double limit) const;
   /// Where no point is deeper than `far_limit`, or than `limit` next to a face that is not at a thin place [mm]; kept.
@@ -47,6 +51,7 @@ class SolidShape {
   std::unique_ptr<const SurfaceTree> surface_;
   std::unique_ptr<const WindingNumber> winding_;
   std::unique_ptr<Regions> regions_;
+  std::vector<Vec3> shell_points_;
 };
 
 /// A shape at a pose.

@@ -15,6 +15,9 @@ namespace {
 /// (docs/design/0006-certificates.md derives 40; the rest is margin).
 constexpr double kGapRoundings = 48;
 
+/// A part of which one in this many pairs is separated anew looks for siblings to merge often.
+constexpr std::size_t kMuchSplit = 16;
+
 RigidTransformF to_float(const RigidTransform& t) {
   RigidTransformF f;
   for (int i = 0; i < 3; ++i) f.row[i] = to_float(t.rotation.row[i]);
@@ -78,7 +81,9 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& 
   if (work.items.empty()) return result;
 
   resolve(work, sweep, kernels, test, result);
-  replace(part, work, result.blocked == 0 && result.complete);
+  // What a sweep that was cut has found is there for the next one.
+  if (work.items.size() * kMuchSplit > part.size()) part.set_merge_period(kMergePeriod);
+  replace(part, work, result.cut || (result.blocked == 0 && result.complete));
   return result;
 }
 

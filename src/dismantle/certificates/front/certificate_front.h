@@ -44,14 +44,18 @@ struct PreparedSweep : LinearSweep {
   std::vector<ThreadSweep> threads;            ///< Separation of mating threads; those that are useful.
   /// sweep_const() ends soon after so many tests of triangles, incomplete.
   std::size_t max_tests = std::numeric_limits<std::size_t>::max();
+  /// The sweep of a part ends soon after so many pairs of nodes, incomplete.
+  std::size_t max_node_pairs = std::numeric_limits<std::size_t>::max();
 };
 
 /// Result of sweeping a part of a front.
 struct FrontSweep {
   float min_gap = 3e38f;           ///< Lower bound of the gaps of the certified pairs during the sweep [mm].
   std::size_t triangle_tests = 0;  ///< Calls of the TrianglePairTest.
-  std::size_t blocked = 0;         ///< Those whose verdict was not free.
+  std::size_t node_pairs = 0;      ///< Pairs of nodes that were separated anew, or could not be.
+  std::size_t blocked = 0;         ///< Triangle pairs whose verdict was not free.
   bool complete = true;            ///< Every pair was examined.
+  bool cut = false;                ///< PreparedSweep::max_node_pairs was reached: not every pair was examined.
   /// Cylinders that are blocked by their bores, taken as one contact each: the motion is not free.
   std::vector<CylinderFit> fits;
 };

@@ -44,7 +44,14 @@ void CertificateFront::resolve(Work& work, const PreparedSweep& sweep, const Fro
       };
       result.complete &= std::erase_if(work.batch, enough) == 0;
     }
+    result.node_pairs += work.batch.size();
     resolve_batch(work, sweep, kernels, test, result);
+    // After a batch at least: each sweep gets somewhere.
+    if (result.node_pairs >= sweep.max_node_pairs && !work.waiting.empty()) {
+      result.complete = false;
+      result.cut = true;
+      return;
+    }
   }
 }
 
@@ -62,6 +69,7 @@ std::vector<std::uint32_t> CertificateFront::find_starts(Work& work, const Prepa
   std::vector<std::pair<double, std::uint32_t>> nearest;  // their gaps and items
   for (std::size_t k = 0; k < opened.size(); ++k) {
     prefetch_radial(work, opened, k, sweep);
+    ++result.node_pairs;
     const std::uint32_t i = opened[k];
     const std::uint32_t a = work.items[i].a, b = work.items[i].b;
     if (const auto certificate = separate_radially(a, b, sweep, result)) {

@@ -11,8 +11,8 @@ namespace dismantle {
 
 namespace {
 
-/// Each part merges siblings once in this many sweeps.
-constexpr std::size_t kMergePeriod = 8;
+/// A part in which less than one in this many pairs merges waits twice as long with its next search, at most this long.
+constexpr std::size_t kRareMerges = 32, kLongestMergePeriod = 64;
 /// Merging is repeated while it removes more than one in this many pairs.
 constexpr std::size_t kMergeShare = 8;
 /// Parts with more pairs than this are split in two.
@@ -26,7 +26,8 @@ constexpr std::size_t kRadialTries = 256;
 }  // namespace
 
 bool CertificateFront::merge_due(std::size_t part) const {
-  return (sweeps_ + part) % kMergePeriod == kMergePeriod - 1;
+  const std::size_t period = parts_[part].merge_period();
+  return (sweeps_ + part) % period == period - 1;
 }
 
 std::vector<Siblings> CertificateFront::siblings_of(std::size_t part) const {
@@ -41,8 +42,11 @@ void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep,
 void CertificateFront::merge_part(std::size_t index, const PreparedSweep& sweep, const FrontKernels& kernels,
                                   Span<const Siblings> siblings, Span<const NodeSeparation> separations) {
   DISMANTLE_EXPECT(siblings.size() == separations.size());
+  if (!merge_due(index)) return;
   CertificatePart& part = parts_[index];
   std::size_t gone = merge(part, sweep, siblings, separations);
+  const bool rare = gone * kRareMerges < part.size();
+  part.set_merge_period(rare ? std::min(2 * part.merge_period(), kLongestMergePeriod) : kMergePeriod);
   while (gone * kMergeShare > part.size()) {
     const std::vector<Siblings> more = find_siblings(part);
     gone = merge(part, sweep, more, separate_parents(more, sweep, kernels));
@@ -135,27 +139,48 @@ void CertificateFront::merge_radial(const PreparedSweep& sweep) {
   struct Pair {
     ObbSubtree a, b;
     Certificate certificate = Certificate::none();
+    bool is_separated = false;
+    std::size_t first_half = 0;  // in the list of pairs tried; 0 if it has no halves there
   };
-  std::vector<Pair> tried{{ObbSubtree::whole(*a_), ObbSubtree::whole(*b_)}}, found;
+  std::vector<Pair> tried{{ObbSubtree::whole(*a_), ObbSubtree::whole(*b_)}};
   FrontSweep unused;
+  bool any = false;
   for (std::size_t k = 0; k < tried.size() && k < kRadialTries; ++k) {
-    const Pair pair = tried[k];
-    if (const auto certificate = separate_radially(pair.a.node, pair.b.node, sweep, unused)) {
-      found.push_back({pair.a, pair.b, *certificate});
-    } else if (!a_->nodes[pair.a.node].leaf() || !b_->nodes[pair.b.node].leaf()) {
-      const bool splits_of_a = trees().splits_a(pair.a.node, pair.b.node);
+    const ObbSubtree a = tried[k].a, b = tried[k].b;
+    if (const auto certificate = separate_radially(a.node, b.node, sweep, unused)) {
+      tried[k].certificate = *certificate;
+      tried[k].is_separated = any = true;
+    } else if (!a_->nodes[a.node].leaf() || !b_->nodes[b.node].leaf()) {
+      tried[k].first_half = tried.size();
+      const bool splits_of_a = trees().splits_a(a.node, b.node);
       for (std::uint32_t h = 0; h < 2; ++h)
-        tried.push_back(splits_of_a ? Pair{pair.a.half(*a_, h), pair.b} : Pair{pair.a, pair.b.half(*b_, h)});
+        tried.push_back(splits_of_a ? Pair{a.half(*a_, h), b} : Pair{a, b.half(*b_, h)});
     }
   }
-  if (found.empty()) return;
-  const auto lies_below = [](const FrontPair& pair) {
-    return [pair](const Pair& large) { return large.a.holds(pair.a) && large.b.holds(pair.b); };
+  if (!any) return;
+  const auto holds = [](const Pair& large, const FrontPair& pair) {
+    return large.a.holds(pair.a) && large.b.holds(pair.b);
+  };
+  const auto lies_below_separated = [&](const FrontPair& pair) {
+    const Pair* large = tried.data();
+    while (!large->is_separated) {
+      if (large->first_half == 0) return false;
+      const Pair* const half = &tried[large->first_half];
+      if (holds(half[0], pair)) {
+        large = half;
+      } else if (holds(half[1], pair)) {
+        large = half + 1;
+      } else {
+        return false;
+      }
+    }
+    return true;
   };
   for (CertificatePart& part : parts_)
     for (std::size_t i = part.size(); i-- > 0;)
-      if (std::any_of(found.begin(), found.end(), lies_below(part.pair(i)))) part.remove(i);
-  for (const Pair& pair : found) parts_[0].append({pair.a.node, pair.b.node}, pair.certificate);
+      if (lies_below_separated(part.pair(i))) part.remove(i);
+  for (const Pair& pair : tried)
+    if (pair.is_separated) parts_[0].append({pair.a.node, pair.b.node}, pair.certificate);
 }
 
 void CertificateFront::end_sweep(const PreparedSweep& sweep, bool free) {

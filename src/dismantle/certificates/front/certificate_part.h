@@ -17,6 +17,9 @@ struct FrontPair {
   std::uint32_t b;  ///< Node of B's tree.
 };
 
+/// The shortest CertificatePart::merge_period().
+inline constexpr std::size_t kMergePeriod = 8;
+
 /// A part of a front: pairs of nodes with their certificates, unordered, padded to whole blocks.
 class CertificatePart {
  public:
@@ -42,6 +45,11 @@ class CertificatePart {
   /// Marks all blocks as changed.
   void mark_changed() { std::fill(changed_.begin(), changed_.end(), std::uint8_t{1}); }
 
+  /// Number of sweeps from one search for siblings to merge to the next.
+  std::size_t merge_period() const { return merge_period_; }
+  /// Changes that.
+  void set_merge_period(std::size_t sweeps) { merge_period_ = sweeps; }
+
   /// Adds a pair at the end.
   void append(const FrontPair& pair, const Certificate& certificate);
   /// Replaces pair i.
@@ -57,6 +65,7 @@ class CertificatePart {
   std::vector<FrontPair> pairs_;
   std::vector<float> data_;
   std::vector<std::uint8_t> changed_;  // one flag a block
+  std::size_t merge_period_ = kMergePeriod;
 };
 
 }  // namespace dismantle

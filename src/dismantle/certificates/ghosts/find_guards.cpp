@@ -6,6 +6,7 @@
 #include "dismantle/surface/solid_distance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -71,6 +72,11 @@ void limit_far_points(GuardedPair& guard, const BoundedSide& a, const BoundedSid
   };
   limit_in(b, a, 0);
   limit_in(a, b, 1);
+}
+
+/// The limit of solid_distance() that finds a distance of no more than this.
+double just_above(double distance) {
+  return std::nextafter(distance, kUnlimited);
 }
 
 }  // namespace
@@ -140,8 +146,8 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
 bool usual_ghosts_apart(const ComponentAt& a, const ComponentAt& b, double tolerance) {
   const auto touch = [&](const SolidTree* first, const SolidTree* second) {
     if (first->tree.empty() || second->tree.empty()) return false;
-    const SolidDistance found =
-        solid_distance({first, a.world_from_assembled}, {second, b.world_from_assembled}, tolerance);
+    const SolidDistance found = solid_distance({first, a.world_from_assembled}, {second, b.world_from_assembled},
+                                               just_above(kTouching * tolerance));
     return found.distance <= kTouching * tolerance;
   };
   return !touch(a.ghost, b.solid) && !touch(a.solid, b.ghost);
@@ -150,11 +156,17 @@ bool usual_ghosts_apart(const ComponentAt& a, const ComponentAt& b, double toler
 bool further_apart(const ComponentAt& a, const ComponentAt& b, double distance) {
   const PlacedSolid first{a.solid, a.world_from_assembled}, second{b.solid, b.world_from_assembled};
   if (a.solid->tree.empty() || b.solid->tree.empty() || bounds_distance(first, second) > distance) return true;
-  if (solid_distance(first, second, 2 * distance).distance <= distance) return false;
+  return solid_distance(first, second, just_above(distance)).distance > distance && none_inside(a, b);
+}
+
+bool none_inside(const ComponentAt& a, const ComponentAt& b) {
+  const PlacedSolid first{a.solid, a.world_from_assembled}, second{b.solid, b.world_from_assembled};
+  if (a.solid->tree.empty() || b.solid->tree.empty() || bounds_distance(first, second) > 0) return true;
   const auto inside = [](const ComponentAt& inner, const ComponentAt& outer) {
     const RigidTransform outer_from_inner = inverse(outer.world_from_assembled) * inner.world_from_assembled;
     const WindingNumber& winding = outer.make_shape()->winding();
-    const std::vector<Vec3>& points = inner.solid->vertices;
+    // A connected part that does not meet a closed surface is on one side of it.
+    const std::vector<Vec3>& points = winding.fans() ? inner.solid->vertices : inner.make_shape()->shell_points();
     return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return winding.inside(outer_from_inner * p); });
   };
   return !inside(a, b) && !inside(b, a);

@@ -60,10 +60,12 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
 CertificateSweep CertificateResponse::sweep(const ScrewMotion& motion, double window, SweepBudget budget,
                                             StepResult& result) {
   CertificateSweep found = sweeper_.sweep(motion, window, budget);
-  sweeper_.count_depth_tests(found.depth_tests);
+  sweeper_.count_work(found);
+  unfinished_ |= found.cut;
   undecided_ |= found.undecided && undecided_steps_ < kMaxUndecidedSteps;
   ++result.sweeps;
   result.cost.pairs = found.front;
+  result.cost.node_pairs += found.node_pairs;
   result.cost.triangle_pairs += found.triangle_tests;
   result.cost.tests += found.triangle_tests;
   result.cost.depth_tests += found.depth_tests;
@@ -101,8 +103,7 @@ void CertificateResponse::go(const Pose& target, bool touch, StepResult& result)
   const double tolerance = sweeper_.tolerance();
   const int cuts = chord_count(whole.deviation, kArcShare * tolerance);
   for (double at = 0; at < 1;) {
-    const std::size_t limit = sweeper_.options().depth_tests;
-    if (touch && at > 0 && limit > 0 && result.cost.depth_tests >= limit) {
+    if (touch && at > 0 && sweeper_.is_used_up()) {
       unfinished_ = true;
       break;
     }
@@ -151,7 +152,7 @@ double CertificateResponse::free_fraction(const ScrewMotion& motion, bool touch,
       break;
     }
     result.clearance = 0;
-    if (undecided_) return 0;
+    if (undecided_ || found.cut) return 0;
     stop_at(found);
     if (found.complete && trial.deviation == 0) break;
     if (tries == kMaxShortenings) fraction = 0;

@@ -45,11 +45,11 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
   // not block the motion to the target.
   state.axes_chosen = std::exchange(keeps_axes_, false) || contacts_.empty();
   state.contacts_here = contacts_.empty();
-  const std::size_t limit = sweeper_.options().slide_tests, depth_limit = sweeper_.options().depth_tests;
+  const std::size_t limit = sweeper_.options().slide_tests;
   while (state.tries < kMaxTries) {
     const bool is_long =
         limit > 0 && state.tries >= kCertainTries && result.cost.tests + result.cost.depth_tests >= limit;
-    if (is_long || (depth_limit > 0 && result.cost.depth_tests >= depth_limit)) {
+    if (is_long || sweeper_.is_used_up()) {
       unfinished_ = true;
       keeps_axes_ = state.axes_chosen;
       break;
@@ -73,6 +73,14 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       if (found.complete) make_part(motion, found.toi, kContactWindow, result);
       keeps_axes_ = state.axes_chosen;
       break;
+    }
+    if (found.cut) {
+      // More certificates hold for a shorter motion.
+      reach_ = std::max(kMinTry * tolerance, trial.travel / kTryGrowth);
+      if (found.blocked.empty() && found.fits.empty()) {
+        keeps_axes_ = state.axes_chosen;
+        break;
+      }
     }
     if (!found.free) report(found, result);
     state.tries += !found.free || trial.twist.bounded;

@@ -20,6 +20,8 @@ constexpr double kBoundedShare = 1e-2;
 constexpr std::size_t kSampleSize = 32;
 /// It examines this many parts of fronts at a time, and ends after those with which this many pairs are blocked.
 constexpr std::size_t kPartsAtATime = 16, kEnoughBlocked = 64;
+/// A sweep may examine this many pairs of nodes, however many the others of its step have.
+constexpr std::size_t kFewestNodePairs = 512;
 
 /// The one of the moving (first) and the fixed (second) component that is represented by its ghost.
 GhostOf ghost_of(SurfacePair surfaces) {
@@ -140,7 +142,7 @@ void CertificateSweeper::finish(CertificateSweep& result, double window) {
   sort_blocked(result.blocked);
   for (const SweepContact& b : result.blocked) result.toi = std::min(result.toi, b.toi);
   std::erase_if(result.blocked, [&](const SweepContact& b) { return b.toi > result.toi + window; });
-  result.free = result.blocked.empty() && result.fits.empty();
+  result.free = result.blocked.empty() && result.fits.empty() && !result.cut;
   result.clearance = result.free ? std::max(0.0, result.clearance) : 0;
 }
 
@@ -174,22 +176,30 @@ CertificateSweep CertificateSweeper::sweep(const ScrewMotion& motion, double win
     for (std::size_t part = 0; part < pairs[p].front->part_count(); ++part) tasks.push_back({p, part, 1, {}, {}, 0});
 
   const DeviceResults by_device = ask_device(pairs, tasks, budget);
-  std::size_t blocked = 0;
+  std::size_t blocked = 0, node_pairs = 0;
+  const std::size_t most = std::max(kFewestNodePairs, node_pairs_left_);
   for (std::size_t begin = 0; begin < tasks.size(); begin += kPartsAtATime) {
     const std::size_t count = std::min(kPartsAtATime, tasks.size() - begin);
-    const bool enough = budget != SweepBudget::Exhaustive && blocked >= kEnoughBlocked;
+    const bool cut = node_pairs >= most;
+    const bool enough = cut || (budget != SweepBudget::Exhaustive && blocked >= kEnoughBlocked);
+    for (std::size_t i = begin; i < begin + count && !enough; ++i)
+      pairs[tasks[i].pair].sweep.max_node_pairs = (most - node_pairs) / count;
     for_each_part(count, [&](std::size_t offset) {
       PartTask& task = tasks[begin + offset];
       const PairSweep& pair = pairs[task.pair];
       if (!by_device.merged) pair.front->merge_part(task.part, pair.sweep, kernels_);
       if (enough) {
         task.found.complete = false;
+        task.found.cut = cut;
       } else {
         task.found = pair.front->sweep_part(task.part, pair.sweep, kernels_, triangle_pair_test(pair, task, window),
                                             by_device.parts.empty() ? nullptr : &by_device.parts[begin + offset]);
       }
     });
-    for (std::size_t i = begin; i < begin + count; ++i) blocked += tasks[i].blocked.size();
+    for (std::size_t i = begin; i < begin + count; ++i) {
+      blocked += tasks[i].blocked.size();
+      node_pairs += tasks[i].found.node_pairs;
+    }
   }
 
   collect(tasks, pairs, result);
@@ -209,9 +219,11 @@ void CertificateSweeper::collect(const std::vector<PartTask>& tasks, std::vector
     PairSweep& pair = pairs[task.pair];
     pair.apart_by = std::min(pair.apart_by, pair.clearance(task.found));
     result.clearance = std::min(result.clearance, pair.apart_by);
+    result.node_pairs += task.found.node_pairs;
     result.triangle_tests += task.found.triangle_tests;
     result.device_tests += task.device_tests;
     result.complete &= task.found.complete;
+    result.cut |= task.found.cut;
     pair.free &= task.found.complete && task.found.blocked == 0;
     const std::pair both{pair.tested.moving, pair.tested.fixed};
     result.blocked.insert(result.blocked.end(), task.blocked.begin(), task.blocked.end());

@@ -99,11 +99,19 @@ class CertificateSweeper {
   void part_others();
 
   /// Begins a step: its sweeps share CertificateOptions::depth_tests. They have no limit outside a step.
-  void begin_step() { depth_tests_left_ = options_.depth_tests > 0 ? options_.depth_tests : kUnlimited; }
+  void begin_step() {
+    depth_tests_left_ = options_.depth_tests > 0 ? options_.depth_tests : kUnlimited;
+    node_pairs_left_ = options_.node_pairs > 0 ? options_.node_pairs : kUnlimited;
+  }
   /// Takes what a sweep of the step examined from that.
-  void count_depth_tests(std::size_t count) { depth_tests_left_ -= std::min(count, depth_tests_left_); }
+  void count_work(const CertificateSweep& sweep) {
+    depth_tests_left_ -= std::min(sweep.depth_tests, depth_tests_left_);
+    node_pairs_left_ -= std::min(sweep.node_pairs + sweep.front / kChecksPerNodePair, node_pairs_left_);
+  }
+  /// True if the sweeps of the step have done what a step may do.
+  bool is_used_up() const { return depth_tests_left_ == 0 || node_pairs_left_ == 0; }
   /// Ends the step.
-  void end_step() { depth_tests_left_ = kUnlimited; }
+  void end_step() { depth_tests_left_ = node_pairs_left_ = kUnlimited; }
 
   /// The surfaces, which other engines can share.
   const std::shared_ptr<const AssemblySurfaces>& surfaces() const { return store_.surfaces(); }
@@ -202,9 +210,13 @@ class CertificateSweeper {
   std::size_t parted_count_ = 0;                      ///< Of the pairs in `guarded_`.
   std::vector<ComponentId> changed_;                  ///< Since find_parted() was last called.
   std::vector<bool> is_changed_;
+  /// Certificates that are checked in the time in which a pair of nodes is separated.
+  static constexpr std::size_t kChecksPerNodePair = 16;
   static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
-  std::size_t depth_tests_left_ = kUnlimited;  ///< Of the present step.
-  Vec3 center_;                                ///< Of a sphere around the moving set [mm, assembled].
+  ///@{ Of the present step.
+  std::size_t depth_tests_left_ = kUnlimited, node_pairs_left_ = kUnlimited;
+  ///@}
+  Vec3 center_;  ///< Of a sphere around the moving set [mm, assembled].
   double radius_ = 0;
 };
 

@@ -7,6 +7,8 @@
 #include "dismantle/surface/solid_distance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace dismantle {
 
@@ -82,7 +84,8 @@ void CertificateSweeper::part_others() {
       const RigidTransform b = transform_from_pose(poses_[second.value]);
       const double gap = store_.spheres().gap(second, b, b, 0, first, poses_[first.value]);
       if (gap > std::max(tolerance_, pair.parting) ||
-          (!near(first, second, pair) && apart(first, second, pair.parting) && usual_ghosts_apart(first, second)))
+          (!near(first, second, pair) && none_inside(placed(first), placed(second)) &&
+           usual_ghosts_apart(first, second)))
         change_parted(first, second, true);
     }
 }
@@ -96,7 +99,8 @@ bool CertificateSweeper::near(ComponentId a, ComponentId b, GuardedPair& pair) c
       distance_triangle_triangle({{at_a * s[0], at_a * s[1], at_a * s[2]}}, {{at_b * t[0], at_b * t[1], at_b * t[2]}})
           .distance;
   if (before <= pair.parting) return true;
-  const SolidDistance found = solid_distance({&first, at_a}, {&second, at_b}, 2 * pair.parting);
+  const double above = std::nextafter(pair.parting, std::numeric_limits<double>::infinity());
+  const SolidDistance found = solid_distance({&first, at_a}, {&second, at_b}, above);
   if (found.distance > pair.parting) return false;
   pair.near_a = found.face_a;
   pair.near_b = found.face_b;

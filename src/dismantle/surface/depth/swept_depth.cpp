@@ -45,7 +45,7 @@ class PairSearch {
   std::optional<DeepPoint> sampled() {
     for (double time = kFirstPart * resolution_;; time *= 2) {
       for (const int of : {0, 1})
-        if (const auto found = searches_[of].sample(std::min(until_, time)))
+        if (const auto found = searches_[of].sample(std::min(until_, time), max_pieces_))
           return searches_[of].deep_point(*found, of == 0);
       if (time >= until_) return std::nullopt;
     }
@@ -142,7 +142,7 @@ class PairSearch {
         return true;
       }
       for (const int of : {0, 1})
-        if (const auto found = searches_[of].sample(to)) return know(*found, of);
+        if (const auto found = searches_[of].sample(to, max_pieces_)) return know(*found, of);
     }
     const std::size_t most = max_pieces_ - std::min(recalled_, max_pieces_);
     const std::size_t enough = pieces_ + std::max(most / kShareOfPieces, std::min(most, kFewPieces));

@@ -11,8 +11,9 @@ namespace dismantle {
 
 namespace {
 
-/// Most faces that are sampled of a surface.
-constexpr std::size_t kSamples = 2000;
+/// Most faces that are sampled of a surface; fewer where a search may examine few pieces, but not fewer than so many.
+constexpr std::size_t kSamples = 2000, kFewestSamples = 100;
+constexpr std::size_t kPiecesPerSample = 6;
 /// As many nodes or known parts take as long as a piece that is examined.
 constexpr std::size_t kKnownInPiece = 8;
 /// An attempt with known parts ends after this many new pieces; points are then sampled before the full search.
@@ -66,15 +67,16 @@ std::optional<ShallowParts::EndedAt> SweptSearch::begin() {
   return std::exchange(known_->ended_at, std::nullopt);
 }
 
-std::optional<TimedPoint> SweptSearch::sample(double time) {
+std::optional<TimedPoint> SweptSearch::sample(double time, std::size_t max_pieces) {
   if (!is_limited_) return std::nullopt;
+  const std::size_t most = std::clamp(max_pieces / kPiecesPerSample, kFewestSamples, kSamples);
   const InterpolatedTransform& now = at(time);
   const SurfaceTree& own = own_.surface();
   const Bvh& bvh = own.bvh();
   std::vector<NodeIndex> nodes{bvh.root()};
   std::size_t faces = 0;
   std::uint32_t last = 0;
-  while (!nodes.empty() && faces < kSamples) {
+  while (!nodes.empty() && faces < most) {
     const NodeIndex node = nodes.back();
     nodes.pop_back();
     ++visited_;
