@@ -10,6 +10,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     part.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}};
     return std::vector<MeshPart>{part};
   };
-  fuzz::require_sound(parse_urdf(fuzz::source_of(data, size), {}, one_triangle));
+  ImportOptions options;
+  for (const Solids visuals : {Solids::Split, Solids::Join}) {
+    options.solids = visuals;
+    fuzz::require_sound(parse_urdf(fuzz::source_of(data, size), options, one_triangle));
+  }
   return 0;
 }

@@ -71,7 +71,8 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
   static const std::map<std::string, Solids> kSolids{{"split", Solids::Split}, {"join", Solids::Join}};
   command
       .add_option("--solids", o.import.solids,
-                  "CAD files: a product with several solids gives a component of each (split) or one of all (join)")
+                  "A product with several solids, or a URDF link with several visuals, gives a component of each "
+                  "(split) or one of all (join)")
       ->transform(choice(kSolids))
       ->type_name("split|join")
       ->group(group);

@@ -4,6 +4,7 @@
 #include "dismantle/documents/fastener_json.h"
 #include "dismantle/fasteners/find_fasteners.h"
 #include "dismantle/files/number_text.h"
+#include "dismantle/formats/import/file_formats.h"
 #include "dismantle/surface/equal_shapes.h"
 
 #include <fmt/format.h>
@@ -64,6 +65,30 @@ SplitProducts split_products(const Assembly& assembly) {
       split.components += components[node];
     }
   return split;
+}
+
+/// The links of a URDF that are several components each: the groups below the root.
+SplitProducts split_links(const Assembly& assembly) {
+  SplitProducts split;
+  std::uint32_t last = 0;
+  for (const Component& c : assembly.components) {  // those of a link are one after another
+    const std::uint32_t link = assembly.tree[c.tree_node].parent;
+    if (link == 0) continue;
+    ++split.components;
+    if (link != last) ++split.products;
+    last = link;
+  }
+  return split;
+}
+
+void print_split(const Assembly& assembly) {
+  const FormatEntry* format = format_of(assembly.source_file);
+  const bool is_urdf = format != nullptr && format->format == FileFormat::Urdf;
+  const SplitProducts split = is_urdf ? split_links(assembly) : split_products(assembly);
+  if (split.products == 0) return;
+  const std::string whole = is_urdf ? "link" : "product", piece = is_urdf ? "visual" : "solid";
+  fmt::print("{} with several {}s: {} components, one for each {} (--solids join: one for each {})\n",
+             count_text(split.products, whole), piece, split.components, piece, whole);
 }
 
 Json fasteners_json(const Assembly& a) {
@@ -145,9 +170,7 @@ void print_text(const Assembly& a) {
   if (a.deflection > 0) fmt::print("tessellation deflection {} mm\n", number_text(a.deflection, 4));
   if (a.simplification_error > 0)
     fmt::print("simplification moved the surface by at most {} mm\n", number_text(a.simplification_error, 4));
-  if (const SplitProducts split = split_products(a); split.products > 0)
-    fmt::print("{} with several solids: {} components, one for each solid (--solids join: one for each product)\n",
-               split.products == 1 ? "1 product" : fmt::format("{} products", split.products), split.components);
+  print_split(a);
   const std::vector<ComponentId> duplicate_of = originals(a);
   std::size_t width = 9;
   for (const Component& c : a.components) width = std::max(width, c.name.size());

@@ -5,7 +5,6 @@
 #include "dismantle/formats/import/file_formats.h"
 #include "dismantle/formats/mesh/read_mesh.h"
 #include "dismantle/formats/threemf/read_3mf.h"
-#include "dismantle/formats/urdf/read_urdf.h"
 #include "dismantle/formats/vrml/read_vrml.h"
 #include "dismantle/loading/run_reader.h"
 
@@ -24,8 +23,6 @@ Result<Assembly> read_any(const std::filesystem::path& file, const ImportOptions
       return read_3mf(file, options);
     case FileFormat::Vrml:
       return read_vrml(file, options);
-    case FileFormat::Urdf:
-      return read_urdf(file, options);
     case FileFormat::Dasm:
       return read_dasm(file, options);
     default:

@@ -290,10 +290,10 @@ void bind_assembly(py::module_& module) {
       ("Reads a file (" + format_names() +
        "), or a folder of meshes. `units`: unit of the coordinates (mm, cm, "
        "m, um, in, ft; default: by the format). CAD files: `deflection` [mm] and `angular_deflection` [rad] of the "
-       "tessellation; 0: default. `solids`: what a product with several solids gives, a "
-       "component of each (split) or one of all (join). `drop_duplicates`: leaves out components that are "
-       "identical with another one and in the same place. `cache`: keeps the triangles of CAD files for the "
-       "next time. `references`: folders besides the file's own in which the files that it refers to may be. "
+       "tessellation; 0: default. `solids`: what a product with several solids, or a URDF link with several visuals, "
+       "gives, a component of each (split) or one of all (join). `drop_duplicates`: leaves out components that are "
+       "identical with another one and in the same place. `cache`: keeps the triangles of CAD, COLLADA and URDF files "
+       "for the next time. `references`: folders besides the file's own in which the files that it refers to may be. "
        "`import_memory` [MiB], `import_time` [s]: what reading may take; 0: by the size of the file.")
           .c_str());
   module.def(

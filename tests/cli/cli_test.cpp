@@ -133,6 +133,20 @@ TEST_F(Cli, DescribesAnAssembly) {
   EXPECT_NE(run("info parts").out.find("block"), std::string::npos);
 }
 
+TEST_F(Cli, SplitsOrJoinsTheVisualsOfALink) {
+  const std::string visual = "<visual><geometry><box size='1 1 1'/></geometry></visual>";
+  write("arm.urdf", "<robot name='arm'><link name='base'>" + visual + visual + "</link><link name='tool'>" + visual +
+                        "</link></robot>");
+  const Outcome split = run("info arm.urdf"), joined = run("info arm.urdf --solids join");
+  EXPECT_NE(split.out.find("arm.urdf: 3 components"), std::string::npos) << split.out << split.err;
+  EXPECT_NE(split.out.find("1 link with several visuals: 2 components, one for each visual (--solids join: one for "
+                           "each link)"),
+            std::string::npos)
+      << split.out;
+  EXPECT_NE(joined.out.find("arm.urdf: 2 components"), std::string::npos) << joined.out << joined.err;
+  EXPECT_EQ(joined.out.find("several"), std::string::npos) << joined.out;
+}
+
 TEST_F(Cli, ChecksPairs) {
   write_box("shelf", 2, 2, 10, 8, 8, 12);
   const Outcome o = run("check parts --json --tolerance 0.01");

@@ -33,7 +33,8 @@ const std::string kBox = "<box size=\"1 2 3\"/>";
 
 Result<Assembly> parse(const std::string& text, const ImportOptions& options = {}) {
   return parse_urdf({text, "arm.urdf"}, options, [](const std::string&) -> Result<std::vector<MeshPart>> {
-    return std::vector<MeshPart>{{"", tessellate_box({1, 1, 1}).mesh, {}, ""}};
+    return std::vector<MeshPart>{{"small", tessellate_box({0.1, 0.1, 0.1}).mesh, {0, 0, 1, 1}, ""},
+                                 {"large", tessellate_box({1, 1, 1}).mesh, {1, 0, 0, 1}, ""}};
   });
 }
 
@@ -68,20 +69,65 @@ TEST(ReadUrdf, TurnsAboutFixedAxesInOrder) {
   EXPECT_NEAR(length(y - Vec3{0, 1, 0}), 0, 1e-15);
 }
 
-TEST(ReadUrdf, MergesTheVisualsOfALink) {
-  const auto assembly =
-      parse(robot("<material name=\"grey\"><color rgba=\"0.5 0.5 0.5 1\"/></material><link name=\"base\">"
-                  "<visual><material name=\"grey\"/><geometry><mesh filename=\"a.obj\" scale=\"0.001 0.001 "
-                  "-0.001\"/></geometry></visual>"
-                  "<visual><origin xyz=\"3 0 0\"/><geometry><box size=\"1 1 1\"/></geometry></visual>"
-                  "<collision><geometry><box size=\"9 9 9\"/></geometry></collision></link>"));
+const std::string kSeveralVisuals =
+    robot("<material name=\"grey\"><color rgba=\"0.5 0.5 0.5 1\"/></material>" + link("tool", kBox) +
+          "<link name=\"base\">"
+          "<visual><material name=\"grey\"/><geometry><mesh filename=\"package://arm/meshes/servo.v1.obj\" "
+          "scale=\"0.001 0.001 -0.001\"/></geometry></visual>"
+          "<visual name=\"plate\"><material name=\"black\"><color rgba=\"0.1 0.1 0.1 1\"/></material>"
+          "<origin xyz=\"3 0 0\" rpy=\"0 0 1.5707963267948966\"/><geometry><box size=\"1 2 1\"/></geometry></visual>"
+          "<visual name=\"\"><geometry><sphere radius=\"0.1\"/></geometry></visual>"
+          "<visual><geometry><mesh filename=\"../servo.v1.stl\"/></geometry></visual>"
+          "<collision><geometry><box size=\"9 9 9\"/></geometry></collision></link>" +
+          joint("base", "tool", "<origin xyz=\"0 0 10\"/>"));
+
+TEST(ReadUrdf, MakesAComponentOfEachVisualInAGroupOfTheLink) {
+  const auto assembly = parse(kSeveralVisuals);
   ASSERT_TRUE(assembly.ok()) << message_of(assembly);
-  ASSERT_EQ(assembly->components.size(), 1u);
-  EXPECT_EQ(assembly->components[0].mesh->faces.size(), 24u);
-  EXPECT_EQ(assembly->components[0].color, (Color{0.5f, 0.5f, 0.5f, 1}));
-  EXPECT_TRUE(assembly->components[0].faults.closed());
-  EXPECT_FALSE(assembly->components[0].faults.inside_out) << "a mirrored mesh is reoriented";
-  expect_near(assembled_bounds(*assembly), {-0.5, -500, -500}, {3500, 500, 500});
+  std::vector<std::string> names, parents;
+  for (const Component& c : assembly->components) {
+    names.push_back(c.name);
+    parents.push_back(assembly->tree[assembly->tree[c.tree_node].parent].name);
+    EXPECT_EQ(assembly->tree[c.tree_node].name, c.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"tool", "servo.v1", "plate", "base", "servo.v1#2"}));
+  EXPECT_EQ(parents, (std::vector<std::string>{"arm.urdf", "base", "base", "base", "base"}));
+  EXPECT_EQ(assembly->tree.size(), 7u) << "the file, its group, and a leaf each";
+  EXPECT_EQ(assembly->components[1].color, (Color{0.5f, 0.5f, 0.5f, 1}));
+  EXPECT_EQ(assembly->components[2].color, (Color{0.1f, 0.1f, 0.1f, 1}));
+  EXPECT_EQ(assembly->components[3].color, Color{});
+  EXPECT_EQ(assembly->components[4].color, (Color{1, 0, 0, 1})) << "that of the mesh";
+  EXPECT_TRUE(assembly->components[1].faults.closed());
+  EXPECT_FALSE(assembly->components[1].faults.inside_out) << "a mirrored mesh is reoriented";
+  expect_near(assembled_bounds(assembly->components[1]), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  expect_near(assembled_bounds(assembly->components[2]), {2000, -500, -500}, {4000, 500, 500});
+}
+
+TEST(ReadUrdf, JoinsTheVisualsOfALinkWhenAsked) {
+  ImportOptions options;
+  options.solids = Solids::Join;
+  const auto assembly = parse(kSeveralVisuals, options);
+  ASSERT_TRUE(assembly.ok()) << message_of(assembly);
+  ASSERT_EQ(assembly->components.size(), 2u);
+  const Component& base = assembly->components[1];
+  EXPECT_EQ(base.name, "base");
+  EXPECT_EQ(assembly->tree[base.tree_node].parent, 0u);
+  EXPECT_EQ(base.color, (Color{0.1f, 0.1f, 0.1f, 1})) << "that of the largest";
+  EXPECT_TRUE(base.faults.closed());
+  EXPECT_FALSE(base.faults.inside_out);
+  expect_near(assembled_bounds(base), {-500, -500, -500}, {4000, 500, 500});
+}
+
+TEST(ReadUrdf, GroupsOnlyLinksWithComponentsOfSeveralVisuals) {
+  const std::string visual = "<visual><geometry>" + kBox + "</geometry></visual>";
+  const auto assembly = parse(robot("<link name=\"a\">" + visual + visual + "</link><link name=\"none\"/>" +
+                                    link("b", kBox) + "<link name=\"c\">" + visual + visual + "</link>"));
+  ASSERT_TRUE(assembly.ok()) << message_of(assembly);
+  std::vector<std::string> names;
+  for (const TreeNode& node : assembly->tree) names.push_back(node.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"arm.urdf", "a", "a", "a#2", "b", "c", "c", "c#2"}));
+  EXPECT_EQ(assembly->tree[4].parent, 0u);
+  EXPECT_EQ(assembly->tree[7].parent, 5u);
 }
 
 TEST(ReadUrdf, TessellatesCylindersAndSpheres) {
@@ -97,11 +143,12 @@ TEST(ReadUrdf, TessellatesCylindersAndSpheres) {
   }
   EXPECT_NEAR(signed_volume(*cylinder.mesh), std::numbers::pi * 100 * 100 * 400, 2e4 * 1.1);
   EXPECT_NEAR(signed_volume(*sphere.mesh) / (4.0 / 3 * std::numbers::pi * 8e6), 1, 0.005);
-  for (const Vec3& p : sphere.mesh->vertices) EXPECT_NEAR(length(p - Vec3{1000, 0, 0}), 200, 1e-9);
+  const TriangleMesh placed = assembled_mesh(sphere);
+  for (const Vec3& p : placed.vertices) EXPECT_NEAR(length(p - Vec3{1000, 0, 0}), 200, 1e-9);
 
   double deepest = 0;  // triangle centres below the sphere
-  for (std::size_t f = 0; f < sphere.mesh->faces.size(); ++f) {
-    const Triangle t = sphere.mesh->triangle(f);
+  for (std::size_t f = 0; f < placed.faces.size(); ++f) {
+    const Triangle t = placed.triangle(f);
     deepest = std::max(deepest, 200 - length((t[0] + t[1] + t[2]) / 3.0 - Vec3{1000, 0, 0}));
   }
   EXPECT_LE(deepest, assembly->deflection);
@@ -139,17 +186,18 @@ TEST(ReadUrdf, FindsMeshesNearTheFile) {
 
 TEST(ReadUrdf, SaysWhatIsWrongWithAMesh) {
   const ScratchFolder folder;
-  folder.put("a.dae", "<COLLADA/>");
+  folder.put("a.gltf", "{}");
   folder.put("b.obj", "v 1\n");
   const auto load = [&](const std::string& mesh) {
     return load_assembly(folder.put("arm.urdf", robot(link("one", "<mesh filename=\"" + mesh + "\"/>"))));
   };
-  expect_unreadable(load("a.dae"), "mesh \"a.dae\" is no OBJ, STL or PLY file");
+  expect_unreadable(load("a.gltf"), "mesh \"a.gltf\" is no COLLADA, OBJ, STL or PLY file");
   expect_unreadable(load("none.obj"), "it refers to \"none.obj\", which is not there");
   expect_unreadable(load("package://none/none.obj"), "is not there");
   expect_unreadable(load(""), "it refers to \"\"");
   expect_unreadable(load("b.obj"), "b.obj cannot be read as OBJ");
-  expect_unreadable(load("arm.urdf"), "is no OBJ, STL or PLY file");
+  expect_unreadable(load("none.dae"), "it refers to \"none.dae\", which is not there");
+  expect_unreadable(load("arm.urdf"), "is no COLLADA, OBJ, STL or PLY file");
 }
 
 TEST(ReadUrdf, SaysWhatIsWrongAndWhere) {

@@ -33,6 +33,14 @@ def test_reads_step_files_as_asked(monkeypatch, tmp_path):
         dismantle.load(MICROSCOPE, solids="glued")
 
 
+def test_splits_or_joins_the_visuals_of_a_link(tmp_path):
+    visual = "<visual><geometry><box size='1 1 1'/></geometry></visual>"
+    file = tmp_path / "arm.urdf"
+    file.write_text(f"<robot name='arm'><link name='base'>{visual * 2}</link></robot>")
+    assert dismantle.load(file).names == ["base", "base#2"]
+    assert dismantle.load(file, solids="join").names == ["base"]
+
+
 def test_gives_meshes_without_a_copy_that_outlive_the_assembly(drawer):
     vertices, faces = drawer["back"].vertices, drawer["back"].faces
     assert vertices.shape == (8, 3) and faces.shape == (12, 3)

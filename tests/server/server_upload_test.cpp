@@ -66,6 +66,40 @@ TEST_F(ServerUpload, OpensAUrdfWithItsMeshes) {
   EXPECT_EQ(model["components"].size(), 1u);
 }
 
+/// A tetrahedron with edges of 10 mm, in COLLADA.
+std::string collada_tetrahedron() {
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>"
+         "<asset><unit meter='0.001'/></asset><library_geometries><geometry id='g'><mesh><source id='p'>"
+         "<float_array id='pa' count='12'>0 0 0 10 0 0 0 10 0 0 0 10</float_array><technique_common>"
+         "<accessor source='#pa' count='4' stride='3'><param name='X' type='float'/><param name='Y' type='float'/>"
+         "<param name='Z' type='float'/></accessor></technique_common></source><vertices id='v'>"
+         "<input semantic='POSITION' source='#p'/></vertices><triangles count='4'>"
+         "<input semantic='VERTEX' source='#v' offset='0'/><p>0 2 1 0 1 3 1 2 3 2 0 3</p></triangles></mesh></geometry>"
+         "</library_geometries><library_visual_scenes><visual_scene id='s'><node><instance_geometry url='#g'/></node>"
+         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+}
+
+TEST_F(ServerUpload, OpensAUrdfWithColladaMeshesAndSeveralVisuals) {
+  if (const Result<Assembly> alone = load_assembly(folder_.put("alone.dae", collada_tetrahedron())); !alone) {
+    ASSERT_NE(alone.error().message.find("built without Assimp"), std::string::npos) << alone.error().message;
+    GTEST_SKIP() << "there is no Assimp";
+  }
+  const auto visual = [](const std::string& mesh, const std::string& rgba) {
+    return "<visual><geometry><mesh filename=\"package://arm/meshes/" + mesh +
+           "\"/></geometry><material name=\"\"><color rgba=\"" + rgba + "\"/></material></visual>";
+  };
+  const std::string urdf = "<robot name=\"arm\"><link name=\"base\">" + visual("servo.dae", "0 0 0 1") +
+                           visual("servo.dae", "1 1 0 1") + visual("plate.obj", "1 0 0 1") + "</link></robot>";
+  Client client(address());
+  const Json model = opened(client, "arm",
+                            {{"arm/urdf/arm.urdf", urdf},
+                             {"arm/meshes/servo.dae", collada_tetrahedron()},
+                             {"arm/meshes/plate.obj", cube("plate")}});
+  EXPECT_EQ(model["name"], "arm.urdf");
+  ASSERT_EQ(model["components"].size(), 3u);
+  EXPECT_EQ(model["components"][1]["name"], "servo#2");
+}
+
 TEST_F(ServerUpload, RefusesMoreFoldersThanFiles) {
   // Each file has 100 folders of its own.
   std::string deep;

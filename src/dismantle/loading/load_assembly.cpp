@@ -37,7 +37,7 @@ std::string format_name(const FormatEntry* entry) {
 
 /// What reads a file, for users.
 std::string reader_name(const FormatEntry* entry) {
-  if (entry == nullptr || !entry->by_cad_kernel) return "its reader";
+  if (entry == nullptr || !entry->by_cad_kernel || entry->format == FileFormat::Urdf) return "its reader";
   return entry->format == FileFormat::Collada ? "Assimp" : "the CAD kernel";
 }
 
@@ -117,21 +117,24 @@ std::string cache_key(const fs::path& file, const FormatEntry& entry, const std:
     return std::string(digits, static_cast<std::size_t>(std::snprintf(digits, sizeof digits, "%a", value)));
   };
   std::string key(entry.name);
+  const bool by_folder = entry.format == FileFormat::Urdf;  // the same text refers to other meshes elsewhere
   for (const std::string& part :
        {std::to_string(kImportVersion), std::string(DISMANTLE_VERSION), std::string(DISMANTLE_CAD_LIBRARIES), content,
-        file.stem().string(), options.units, number(options.deflection), number(options.angular_deflection),
+        file.stem().string(), by_folder ? fs::absolute(file).parent_path().native() : std::string(), options.units,
+        number(options.deflection), number(options.angular_deflection),
         std::to_string(static_cast<int>(options.solids)), std::to_string(options.limits.triangles),
         std::to_string(options.limits.components)})
     key += '\n' + part;
   return key;
 }
 
-/// True if every linked file is as it was, and may still be read.
+/// True if every linked file is as it was, and may still be read, or may still not.
 bool is_current(std::string_view answer, const fs::path& file, const ImportOptions& options) {
   const std::optional<std::vector<LinkedFile>> files = linked_files_in(answer);
   const std::vector<fs::path> folders = reference_folders(file, options);
   return files && std::all_of(files->begin(), files->end(), [&](const LinkedFile& linked) {
-           if (!referenced_file(linked.file, file.parent_path(), folders)) return false;
+           const bool is_there = referenced_file(linked.file, file.parent_path(), folders).ok();
+           if (!is_there || linked.sha256.empty()) return !is_there && linked.sha256.empty();
            const Result<std::string> now = read_file(linked.file, options.limits.file_bytes);
            return now && sha256(*now) == linked.sha256;
          });
@@ -160,9 +163,9 @@ Result<Assembly> read(const fs::path& file, const FormatEntry* entry, const Impo
   std::optional<Assembly> assembly = assembly_in(*answer);
   const std::optional<std::vector<LinkedFile>> linked = linked_files_in(*answer);
   if (!assembly || !linked) return failure(file, entry, {IsolatedEnding::Crashed, 0, {}, {}});
-  // Not if the file changed between the two readings.
-  const bool is_same = !linked->empty() || assembly->source_sha256 == content;
-  if (is_kept && is_same) cache.keep(key, *answer);
+  // Not if the file changed between the two readings. The hash of a FreeCAD document covers those that it links to.
+  const bool has_own_hash = linked->empty() || (entry != nullptr && entry->format == FileFormat::Urdf);
+  if (is_kept && (!has_own_hash || assembly->source_sha256 == content)) cache.keep(key, *answer);
   return std::move(*assembly);
 }
 

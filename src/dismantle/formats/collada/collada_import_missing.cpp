@@ -7,7 +7,7 @@ namespace dismantle {
 Result<Assembly> import_collada(std::string_view, const std::string&, const ImportOptions&) {
   return Error{ErrorKind::Unreadable,
                "this dismantle was built without Assimp; build it where libassimp-dev is installed, or convert the "
-               "file to glTF"};
+               "file to glTF, or to OBJ for a URDF"};
 }
 
 }  // namespace dismantle

@@ -46,7 +46,8 @@ Result<AssemblyBuilder> AssemblyBuilder::create(std::string source_name, std::st
   return builder;
 }
 
-std::optional<Error> AssemblyBuilder::add(MeshPart part, const RigidTransform& assembly_from_part) {
+std::optional<Error> AssemblyBuilder::add(MeshPart part, const RigidTransform& assembly_from_part,
+                                          const std::string& group) {
   if (part.mesh.faces.empty()) return std::nullopt;
   const std::string& source = assembly_.source_file;
   triangles_ += part.mesh.faces.size();
@@ -70,6 +71,7 @@ std::optional<Error> AssemblyBuilder::add(MeshPart part, const RigidTransform& a
   component.faults = cleaned.faults;
   component.color = part.color;
   assembly_.components.push_back(std::move(component));
+  groups_.push_back(group);
   return std::nullopt;
 }
 
@@ -78,9 +80,14 @@ Result<Assembly> AssemblyBuilder::finish(std::string sha256) {
     return Error{ErrorKind::Unreadable,
                  assembly_.source_file + " holds no component (no triangle with an area); export it again as meshes"};
   make_names_unique(assembly_.components);
-  for (Component& component : assembly_.components) {
-    component.tree_node = static_cast<std::uint32_t>(assembly_.tree.size());
-    assembly_.tree.push_back({component.name, 0});
+  std::uint32_t parent = 0;
+  for (std::size_t i = 0; i < assembly_.components.size(); ++i) {
+    if (groups_[i] != (i == 0 ? std::string() : groups_[i - 1])) {
+      parent = groups_[i].empty() ? 0 : static_cast<std::uint32_t>(assembly_.tree.size());
+      if (parent != 0) assembly_.tree.push_back({groups_[i], 0});
+    }
+    assembly_.components[i].tree_node = static_cast<std::uint32_t>(assembly_.tree.size());
+    assembly_.tree.push_back({assembly_.components[i].name, parent});
   }
   assembly_.source_sha256 = std::move(sha256);
   return std::move(assembly_);

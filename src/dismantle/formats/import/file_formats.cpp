@@ -17,7 +17,7 @@ Span<const FormatEntry> file_formats() {
       {FileFormat::ThreeMf, "3MF", {".3mf"}},
       {FileFormat::Collada, "COLLADA", {".dae"}, false, false, true},
       {FileFormat::Vrml, "VRML", {".wrl", ".vrml"}},
-      {FileFormat::Urdf, "URDF", {".urdf"}, false, true},
+      {FileFormat::Urdf, "URDF", {".urdf"}, false, true, true},
       {FileFormat::Dasm, "DASM", {".dasm"}},
       {FileFormat::Obj, "OBJ", {".obj"}, true, true},
       {FileFormat::Stl, "STL", {".stl"}, true},

@@ -18,9 +18,11 @@ struct FormatEntry {
   FileFormat format;                         ///< Which one it is.
   std::string_view name;                     ///< For users: "STEP".
   std::vector<std::string_view> extensions;  ///< In lower case, with the dot.
-  bool is_part = false;        ///< One part a file: the files of a folder together are an assembly (OBJ, STL, PLY).
-  bool has_links = false;      ///< A file may refer to other files.
-  bool by_cad_kernel = false;  ///< Read by OpenCASCADE or Assimp, which take time: what they made is kept in the cache.
+  bool is_part = false;    ///< One part a file: the files of a folder together are an assembly (OBJ, STL, PLY).
+  bool has_links = false;  ///< A file may refer to other files.
+  /// Read by OpenCASCADE or Assimp, itself or the files that it refers to, which takes time: the result is kept in the
+  /// cache.
+  bool by_cad_kernel = false;
 };
 
 /// All formats that dismantle reads: the one list of them, in the order in which users are told.

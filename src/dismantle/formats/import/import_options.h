@@ -23,9 +23,9 @@ struct ImportLimits {
 /// Size of ImportOptions::cache_folder, at most [bytes].
 inline constexpr std::uint64_t kCacheBytes = std::uint64_t{2} << 30;
 
-/// How a product with several solids is imported.
+/// How a product with several solids is imported, and a URDF link with several visuals.
 enum class Solids {
-  Split,  ///< A component of each solid.
+  Split,  ///< A component of each solid, or visual.
   Join,   ///< One component of all.
 };
 
@@ -37,13 +37,13 @@ struct ImportOptions {
                           ///< kDefaultRelativeDeflection of the assembly's size.
   double angular_deflection =
       0;  ///< CAD files: largest turn of the normal from facet to facet [rad]; 0: kDefaultAngularDeflection.
-  Solids solids = Solids::Split;  ///< CAD files: products with several solids.
+  Solids solids = Solids::Split;  ///< CAD files: products with several solids; URDF: links with several visuals.
   bool drop_duplicates = false;   ///< Leaves out components that find_duplicates() finds.
   ImportLimits limits;            ///< Refuses larger input.
   /// Folders besides the file's own in which the files that it refers to may be.
   std::vector<std::filesystem::path> reference_folders;
-  /// CAD files: keeps the triangles of the files that were read (kCacheBytes of them), for the next time that a file is
-  /// read with the same options; empty: keeps nothing.
+  /// CAD, COLLADA and URDF files: keeps the triangles of the files that were read (kCacheBytes of them), for the next
+  /// time that a file is read with the same options; empty: keeps nothing.
   std::filesystem::path cache_folder;
   ProgressCallback progress;  ///< May be empty; may cancel.
 };

@@ -26,35 +26,44 @@ std::string extension_of(const fs::path& file) {
   return lower_case(file.extension().string());
 }
 
-/// Sets the colours of parts from the material files beside an OBJ file; missing files are ignored.
-void apply_materials(ObjModel& model, const fs::path& obj, const ImportOptions& options) {
+/// Sets the colours of parts from the material files beside an OBJ file; missing files are ignored. Returns all of
+/// these files.
+std::vector<LinkedFile> apply_materials(ObjModel& model, const fs::path& obj, const ImportOptions& options) {
+  std::vector<LinkedFile> files;
   for (const std::string& name : model.material_files) {
+    files.push_back({fs::absolute(obj).parent_path() / fs::path(name).filename(), {}});
     const Result<fs::path> file =
         referenced_file(fs::path(name).filename(), obj.parent_path(), reference_folders(obj, options));
     if (!file) continue;
     const Result<std::string> text = read_file(*file, kLargestMaterialFile);
     if (!text) continue;
+    files.back() = {fs::absolute(*file), sha256(*text)};
     const std::unordered_map<std::string, Color> colors = parse_mtl(*text);
     for (MeshPart& part : model.parts)
       if (const auto color = colors.find(part.material); color != colors.end()) part.color = color->second;
   }
+  return files;
 }
 
-Result<std::vector<MeshPart>> parse_parts(const fs::path& file, const MeshSource& source,
-                                          const ImportOptions& options) {
+/// The parts of a file and what it refers to, without its bytes.
+Result<MeshFile> parse_parts(const fs::path& file, const MeshSource& source, const ImportOptions& options) {
   const std::string extension = extension_of(file);
-  if (extension == ".stl") return parse_stl(source, options);
-  if (extension == ".ply") {
+  MeshFile mesh;
+  if (extension == ".stl") {
+    Result<std::vector<MeshPart>> parts = parse_stl(source, options);
+    if (!parts) return parts.error();
+    mesh.parts = std::move(*parts);
+  } else if (extension == ".ply") {
     Result<MeshPart> part = parse_ply(source, options);
     if (!part) return part.error();
-    std::vector<MeshPart> parts;
-    parts.push_back(std::move(*part));
-    return parts;
+    mesh.parts.push_back(std::move(*part));
+  } else {
+    Result<ObjModel> model = parse_obj(source, options);
+    if (!model) return model.error();
+    mesh.linked_files = apply_materials(*model, file, options);
+    mesh.parts = std::move(model->parts);
   }
-  Result<ObjModel> model = parse_obj(source, options);
-  if (!model) return model.error();
-  apply_materials(*model, file, options);
-  return std::move(model->parts);
+  return mesh;
 }
 
 /// All parts as one mesh, with the first one's colour.
@@ -105,11 +114,12 @@ Result<MeshFile> read_mesh_file(const fs::path& file, const ImportOptions& optio
   DISMANTLE_EXPECT(is_mesh_file(file));
   Result<std::string> bytes = read_file(file, options.limits.file_bytes);
   if (!bytes) return bytes.error();
-  Result<std::vector<MeshPart>> parts = parse_parts(file, {*bytes, file.filename().string()}, options);
-  if (!parts) return parts.error();
-  for (MeshPart& part : *parts)
+  Result<MeshFile> mesh = parse_parts(file, {*bytes, file.filename().string()}, options);
+  if (!mesh) return mesh;
+  mesh->bytes = std::move(*bytes);
+  for (MeshPart& part : mesh->parts)
     if (part.name.empty()) part.name = file.stem().string();
-  return MeshFile{std::move(*bytes), std::move(*parts)};
+  return mesh;
 }
 
 Result<Assembly> read_mesh(const fs::path& file, const ImportOptions& options) {

@@ -4,6 +4,7 @@
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/core/result.h"
 #include "dismantle/formats/import/import_options.h"
+#include "dismantle/formats/import/imported_assembly.h"
 #include "dismantle/formats/import/mesh_source.h"
 
 #include <filesystem>
@@ -14,8 +15,9 @@ namespace dismantle {
 
 /// A mesh file's bytes and the parts found in them.
 struct MeshFile {
-  std::string bytes;            ///< The whole file.
-  std::vector<MeshPart> parts;  ///< In the order of the file.
+  std::string bytes;                     ///< The whole file.
+  std::vector<MeshPart> parts;           ///< In the order of the file.
+  std::vector<LinkedFile> linked_files;  ///< OBJ: its MTL files, also those that are not there.
 };
 
 /// True if the extension is that of a mesh file: .obj, .stl or .ply, in upper or lower case.

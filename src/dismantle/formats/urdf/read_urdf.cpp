@@ -5,10 +5,9 @@
 #include "dismantle/files/sha256.h"
 #include "dismantle/files/text_scan.h"
 #include "dismantle/formats/import/assembly_builder.h"
-#include "dismantle/formats/import/referenced_file.h"
-#include "dismantle/formats/mesh/read_mesh.h"
 #include "dismantle/formats/mesh/tessellate.h"
 #include "dismantle/formats/urdf/urdf_kinematics.h"
+#include "dismantle/formats/urdf/urdf_meshes.h"
 
 #include <tinyxml2.h>
 
@@ -19,7 +18,6 @@
 
 namespace dismantle {
 
-namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
 
 namespace {
@@ -44,6 +42,34 @@ std::optional<std::array<double, kCount>> numbers(std::string_view text) {
   return take_word(text).empty() ? std::optional(values) : std::nullopt;
 }
 
+double area(const TriangleMesh& mesh) {
+  double twice = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) twice += length(normal_unscaled(mesh.triangle(f)));
+  return twice / 2;
+}
+
+/// All parts as one, with the colour of the one that has the largest surface.
+MeshPart joined(const std::vector<MeshPart>& parts) {
+  MeshPart whole;
+  double largest = -1;
+  for (const MeshPart& part : parts) {
+    const auto first = static_cast<std::uint32_t>(whole.mesh.vertices.size());
+    whole.mesh.vertices.insert(whole.mesh.vertices.end(), part.mesh.vertices.begin(), part.mesh.vertices.end());
+    for (const Face& f : part.mesh.faces)
+      whole.mesh.faces.push_back({{first + f.v[0], first + f.v[1], first + f.v[2]}});
+    const double size = area(part.mesh);
+    if (size > largest) whole.color = part.color;
+    largest = std::max(largest, size);
+  }
+  return whole;
+}
+
+/// A visual of a link: its mesh in its own frame [m], with its name, which may be empty, and its colour.
+struct Visual {
+  MeshPart part;
+  RigidTransform link_from_visual;  // [m]
+};
+
 /// Reads one URDF document.
 class UrdfParser {
  public:
@@ -59,9 +85,10 @@ class UrdfParser {
   void read_materials(const XMLElement& robot);
   std::optional<Color> color(const XMLElement& visual) const;
   std::optional<Error> read_joints(const XMLElement& robot);
-  Result<MeshPart> link(const XMLElement& element);
-  Result<TriangleMesh> geometry(const XMLElement& visual);
-  Result<TriangleMesh> mesh_file(const XMLElement& mesh);
+  std::optional<Error> add_link(const XMLElement& link, const RigidTransform& frame, AssemblyBuilder& builder);
+  Result<std::vector<Visual>> visuals(const XMLElement& link);
+  Result<MeshPart> geometry(const XMLElement& visual);
+  Result<MeshPart> mesh_file(const XMLElement& mesh);
   Result<TriangleMesh> primitive(const XMLElement& shape);
 
   const MeshSource& source_;
@@ -94,10 +121,7 @@ Result<Assembly> UrdfParser::parse() {
   for (auto* e = robot->FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
     const double fraction = static_cast<double>(done++) / static_cast<double>(links.size());
     if (!report_progress(options_.progress, "reading", fraction)) return cancelled();
-    Result<MeshPart> part = link(*e);
-    if (!part) return part.error();
-    const RigidTransform frame = frames->at(part->name);
-    if (auto error = builder->add(std::move(*part), frame)) return *error;
+    if (auto error = add_link(*e, frames->at(attribute(*e, "name")), *builder)) return *error;
   }
   Result<Assembly> assembly = builder->finish(sha256(source_.bytes));
   if (assembly) assembly->deflection = deflection_ * builder->scale();
@@ -162,54 +186,75 @@ std::optional<Error> UrdfParser::read_joints(const XMLElement& robot) {
   return std::nullopt;
 }
 
-/// All visuals of the link, in the link's frame [m].
-Result<MeshPart> UrdfParser::link(const XMLElement& element) {
-  MeshPart part;
-  part.name = attribute(element, "name");
-  bool is_first = true;
-  for (auto* v = element.FirstChildElement("visual"); v != nullptr; v = v->NextSiblingElement("visual")) {
-    const Result<RigidTransform> link_from_visual = origin(*v);
-    if (!link_from_visual) return link_from_visual.error();
-    Result<TriangleMesh> mesh = geometry(*v);
-    if (!mesh) return mesh.error();
-    triangles_ += mesh->faces.size();
-    if (triangles_ > options_.limits.triangles)
-      return wrong("more than " + std::to_string(options_.limits.triangles) + " triangles");
-
-    const auto first = static_cast<std::uint32_t>(part.mesh.vertices.size());
-    for (const Vec3& p : mesh->vertices) part.mesh.vertices.push_back(*link_from_visual * p);
-    for (const Face& f : mesh->faces) part.mesh.faces.push_back({{first + f.v[0], first + f.v[1], first + f.v[2]}});
-    if (is_first) part.color = color(*v).value_or(Color{});
-    is_first = false;
+/// Adds a component of each visual, in a group named after the link; one visual, or all joined, without a group.
+std::optional<Error> UrdfParser::add_link(const XMLElement& link, const RigidTransform& frame,
+                                          AssemblyBuilder& builder) {
+  Result<std::vector<Visual>> all = visuals(link);
+  if (!all) return all.error();
+  const std::string name = attribute(link, "name");
+  if (all->size() == 1) {
+    Visual& only = all->front();
+    only.part.name = name;
+    return builder.add(std::move(only.part), frame * only.link_from_visual);
   }
-  return part;
+  if (options_.solids == Solids::Join) {
+    std::vector<MeshPart> parts;
+    for (Visual& visual : *all) {
+      for (Vec3& p : visual.part.mesh.vertices) p = visual.link_from_visual * p;
+      parts.push_back(std::move(visual.part));
+    }
+    MeshPart whole = joined(parts);
+    whole.name = name;
+    return builder.add(std::move(whole), frame);
+  }
+  for (Visual& visual : *all) {
+    if (visual.part.name.empty()) visual.part.name = name;
+    if (auto error = builder.add(std::move(visual.part), frame * visual.link_from_visual, name)) return error;
+  }
+  return std::nullopt;
 }
 
-Result<TriangleMesh> UrdfParser::geometry(const XMLElement& visual) {
+Result<std::vector<Visual>> UrdfParser::visuals(const XMLElement& link) {
+  std::vector<Visual> all;
+  for (auto* v = link.FirstChildElement("visual"); v != nullptr; v = v->NextSiblingElement("visual")) {
+    const Result<RigidTransform> link_from_visual = origin(*v);
+    if (!link_from_visual) return link_from_visual.error();
+    Result<MeshPart> part = geometry(*v);
+    if (!part) return part.error();
+    triangles_ += part->mesh.faces.size();
+    if (triangles_ > options_.limits.triangles)
+      return wrong("more than " + std::to_string(options_.limits.triangles) + " triangles");
+    if (const std::string name = attribute(*v, "name"); !name.empty()) part->name = name;
+    if (const std::optional<Color> own = color(*v)) part->color = *own;
+    all.push_back({std::move(*part), *link_from_visual});
+  }
+  return all;
+}
+
+/// The mesh of a visual; of a mesh file, with its stem as name and its colour.
+Result<MeshPart> UrdfParser::geometry(const XMLElement& visual) {
   const XMLElement* const geometry = visual.FirstChildElement("geometry");
   const XMLElement* const shape = geometry == nullptr ? nullptr : geometry->FirstChildElement();
   if (shape == nullptr) return wrong("line " + std::to_string(visual.GetLineNum()) + ": a visual without geometry");
-  return std::string_view(shape->Name()) == "mesh" ? mesh_file(*shape) : primitive(*shape);
+  if (std::string_view(shape->Name()) == "mesh") return mesh_file(*shape);
+  Result<TriangleMesh> mesh = primitive(*shape);
+  if (!mesh) return mesh.error();
+  return MeshPart{{}, std::move(*mesh), {}, {}};
 }
 
-Result<TriangleMesh> UrdfParser::mesh_file(const XMLElement& mesh) {
+Result<MeshPart> UrdfParser::mesh_file(const XMLElement& mesh) {
   const Result<Vec3> scale = vector(mesh, "scale", {1, 1, 1});
   if (!scale) return scale.error();
-  const Result<std::vector<MeshPart>> parts = load_mesh_(attribute(mesh, "filename"));
+  const std::string address = attribute(mesh, "filename");
+  const Result<std::vector<MeshPart>> parts = load_mesh_(address);
   if (!parts) return parts.error();
 
-  TriangleMesh result;
-  const bool mirrored = scale->x * scale->y * scale->z < 0;
-  for (const MeshPart& part : *parts) {
-    const auto first = static_cast<std::uint32_t>(result.vertices.size());
-    for (const Vec3& p : part.mesh.vertices)
-      result.vertices.push_back({scale->x * p.x, scale->y * p.y, scale->z * p.z});
-    for (const Face& f : part.mesh.faces) {
-      const std::uint32_t b = f.v[mirrored ? 2 : 1], c = f.v[mirrored ? 1 : 2];
-      result.faces.push_back({{first + f.v[0], first + b, first + c}});
-    }
-  }
-  return result;
+  MeshPart whole = joined(*parts);
+  whole.name = std::filesystem::path(address).stem().string();
+  for (Vec3& p : whole.mesh.vertices) p = {scale->x * p.x, scale->y * p.y, scale->z * p.z};
+  if (scale->x * scale->y * scale->z < 0)
+    for (Face& f : whole.mesh.faces) std::swap(f.v[1], f.v[2]);
+  return whole;
 }
 
 Result<TriangleMesh> UrdfParser::primitive(const XMLElement& shape) {
@@ -232,66 +277,20 @@ Result<TriangleMesh> UrdfParser::primitive(const XMLElement& shape) {
   return std::move(result.mesh);
 }
 
-/// Candidate files for `address` in a URDF in `folder`, the most likely first.
-std::vector<fs::path> candidates(const std::string& address, const fs::path& folder) {
-  constexpr std::string_view kFile = "file://", kPackage = "package://";
-  if (address.starts_with(kFile)) return {address.substr(kFile.size())};
-  if (!address.starts_with(kPackage)) return {folder / address};
-
-  const std::string path = address.substr(kPackage.size());
-  const std::size_t slash = path.find('/');
-  const std::string package = path.substr(0, slash);
-  const std::string inside = slash == std::string::npos ? "" : path.substr(slash + 1);
-  std::vector<fs::path> files;
-  fs::path above = folder;
-  while (true) {
-    if (above.filename() == package) files.push_back(above / inside);
-    files.push_back(above / path);
-    if (!above.has_relative_path()) break;
-    above = above.parent_path();
-  }
-  above = folder;
-  files.push_back(above / inside);
-  if (above.has_relative_path()) files.push_back(above.parent_path() / inside);
-  return files;
-}
-
-/// Reads a mesh that a URDF refers to.
-Result<std::vector<MeshPart>> load_named_mesh(const std::string& address, const fs::path& urdf,
-                                              const std::vector<fs::path>& folders, const ImportOptions& options) {
-  const fs::path base = fs::absolute(urdf).lexically_normal().parent_path();
-  std::string why;
-  for (const fs::path& candidate : candidates(address, base)) {
-    const Result<fs::path> file = referenced_file(candidate, base, folders);
-    if (!file) {
-      if (why.empty()) why = file.error().message;
-      continue;
-    }
-    if (!is_mesh_file(*file))
-      return malformed({{}, urdf.filename().string()}, "URDF",
-                       "mesh " + in_quotes(address) + " is no OBJ, STL or PLY file");
-    Result<MeshFile> mesh = read_mesh_file(*file, options);
-    if (!mesh) return mesh.error();
-    return std::move(mesh->parts);
-  }
-  return unreadable_as(urdf.filename(), "URDF",
-                       {ErrorKind::Unreadable, "it refers to " + in_quotes(address) + ", which " + why});
-}
-
 }  // namespace
 
 Result<Assembly> parse_urdf(const MeshSource& source, const ImportOptions& options, const MeshLoader& load_mesh) {
   return UrdfParser(source, options, load_mesh).parse();
 }
 
-Result<Assembly> read_urdf(const fs::path& file, const ImportOptions& options) {
+Result<ImportedAssembly> read_urdf(const std::filesystem::path& file, const ImportOptions& options) {
   const Result<std::string> bytes = read_file(file, std::min(kLargestUrdf, options.limits.file_bytes));
   if (!bytes) return bytes.error();
-  ImportOptions mesh_options = options;  // progress is reported a link at a time
-  mesh_options.progress = nullptr;
-  const std::vector<fs::path> folders = reference_folders(file, options);
-  return parse_urdf({*bytes, file.filename().string()}, options,
-                    [&](const std::string& address) { return load_named_mesh(address, file, folders, mesh_options); });
+  UrdfMeshes meshes(file, options);
+  Result<Assembly> assembly = parse_urdf({*bytes, file.filename().string()}, options,
+                                         [&](const std::string& address) { return meshes.load(address); });
+  if (!assembly) return assembly.error();
+  return ImportedAssembly{std::move(*assembly), meshes.linked_files()};
 }
 
 }  // namespace dismantle
