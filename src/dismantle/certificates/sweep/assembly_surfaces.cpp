@@ -9,6 +9,18 @@
 
 namespace dismantle {
 
+namespace {
+
+/// Computes the radial bounds of two trees about the axes that are nearest to each other in the assembled state.
+void prepare_radial_bounds(const SolidTree& a, const SolidTree& b) {
+  if (!a.revolution || !b.revolution) return;
+  PairMotion still;
+  still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
+  RadialSweeps(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin, still).get();
+}
+
+}  // namespace
+
 AssemblySurfaces::AssemblySurfaces(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options)
     : assembly_(assembly), pairs_(pairs), prepared_(options.prepared), shapes_(assembly_) {
   if (prepared_ && prepared_->tolerance() != tolerance()) prepared_ = nullptr;
@@ -101,9 +113,7 @@ void AssemblySurfaces::prepare_radial(const Executor& executor) {
     const SolidTree& a = of == GhostOf::First ? ghost(pair.first) : solid(pair.first);
     const SolidTree& b = of == GhostOf::Second ? ghost(pair.second) : solid(pair.second);
     threads[i] = match_threads(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin);
-    PairMotion still;
-    still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
-    RadialSweeps(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin, still).get();
+    prepare_radial_bounds(a, b);
   });
   for (std::size_t i = 0; i < near.size(); ++i)
     if (!threads[i].empty()) threads_[near[i]] = std::move(threads[i]);
@@ -149,6 +159,8 @@ void AssemblySurfaces::add_guards(std::vector<FoundGuard> guards, const Executor
     for (int k = 0; k < 2; ++k)
       made[i].ghosts[k] =
           std::make_shared<const SolidTree>(make_displaced_tree(solid(ids[k]), std::move(found.ghosts[k]), Executor{}));
+    prepare_radial_bounds(*made[i].ghosts[0], solid(found.b));
+    prepare_radial_bounds(solid(found.a), *made[i].ghosts[1]);
   });
   for (std::size_t i = 0; i < guards.size(); ++i) guarded_[{guards[i].a, guards[i].b}] = std::move(made[i]);
 }
