@@ -99,6 +99,34 @@ TEST_F(FullDisk, IsAnErrorWhereTheOutputIsPrinted) {
   }
 }
 
+TEST_F(FullDisk, LeavesTheCacheOfModelsWithoutAnEntry) {
+  fs::copy_file(fs::path(DISMANTLE_SOURCE_DIR) / "tests/formats/chamfer.step", folder_ / "chamfer.step");
+  const std::vector<std::string> info = {"info", "chamfer.step", "--json"};
+  const auto entries = [&] {
+    std::size_t count = 0;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_ / "cache", ignored))
+      count += entry.is_regular_file() ? 1 : 0;
+    return count;
+  };
+  SpawnOptions limits = full_disk();
+  limits.out = "/dev/null";
+  const CommandEnd full = run(info, limits);
+  EXPECT_EQ(full.exit_code, 0) << full.err;
+  EXPECT_EQ(full.err, "");
+  EXPECT_EQ(entries(), 0u);
+
+  const CommandEnd first = run(info);
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(entries(), 1u);
+  // What is there is used, whether or not there is room for more.
+  EXPECT_EQ(run(info, limits).exit_code, 0);
+  EXPECT_EQ(entries(), 1u);
+  const CommandEnd again = run(info);
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(again.out, first.out);
+}
+
 TEST_F(FullDisk, DoesNotTakeTheFileOfACommandThatCannotPrint) {
   DISMANTLE_NEED("/dev/full");
   ASSERT_EQ(run({"convert", "stack.dasm", "-o", "out/whole.dasm"}).exit_code, 0);
