@@ -25,9 +25,11 @@ TEST(CertificateQueries, AnyFrontGivesTheSameFirstContact) {
   const Assembly assembly = scenes::random_assembly(random, 14, 5);
   const PairStates states = states_of(assembly);
   Grabbed used(assembly, states, 0);
+  CertificateOptions options;
+  options.prepared = used.engine.surfaces();
   for (int step = 0; step < 60; ++step) {
     const Pose target = scenes::random_pose(random, 6, 0.5);
-    Grabbed fresh(assembly, states, 0);
+    Grabbed fresh(assembly, states, 0, options);
     fresh.engine.jump(used.engine.poses());
     const ComponentId id(0);
     fresh.engine.grab({&id, 1});

@@ -95,11 +95,16 @@ class DeviceCertificates : public testing::TestWithParam<TestedDevice> {
   }
 
   /// Plays a motion on the CPU and with the device, and expects equal steps.
-  QueryCounts expect_same(const Assembly& assembly, double tolerance, const Motion& motion) {
+  /// @param node_pairs CertificateOptions::node_pairs of both
+  QueryCounts expect_same(const Assembly& assembly, double tolerance, const Motion& motion,
+                          std::size_t node_pairs = 0) {
     const PairStates states = scenes::states_of(assembly, tolerance);
     QueryCounts counts;
-    CertificateEngine plain(assembly, states);
-    CertificateEngine engine(assembly, states, {}, {device(counts), nullptr});
+    CertificateOptions options;
+    options.node_pairs = node_pairs;
+    CertificateEngine plain(assembly, states, options);
+    options.prepared = plain.surfaces();
+    CertificateEngine engine(assembly, states, options, {device(counts), nullptr});
     for (const MotionMove& move : motion.moves) {
       std::vector<ComponentId> moving;
       for (const std::string& name : move.components) moving.push_back(assembly.find(name).value());
@@ -127,6 +132,8 @@ class DeviceCertificates : public testing::TestWithParam<TestedDevice> {
     EXPECT_EQ(step.contact_points, expected.contact_points);
     EXPECT_EQ(step.sweeps, expected.sweeps);
     EXPECT_EQ(step.clearance, expected.clearance);
+    EXPECT_EQ(step.unfinished, expected.unfinished);
+    EXPECT_EQ(step.cost.node_pairs, expected.cost.node_pairs);
     EXPECT_EQ(step.cost.pairs, expected.cost.pairs);
     EXPECT_EQ(step.cost.tests, expected.cost.tests);
   }
