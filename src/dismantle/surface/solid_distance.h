@@ -4,6 +4,7 @@
 #include "dismantle/math/rigid_transform.h"
 #include "dismantle/surface/solid_tree.h"
 
+#include <cmath>
 #include <limits>
 
 namespace dismantle {
@@ -32,5 +33,10 @@ double bounds_distance(const PlacedSolid& a, const PlacedSolid& b);
 /// @pre neither is empty
 SolidDistance solid_distance(const PlacedSolid& a, const PlacedSolid& b,
                              double limit = std::numeric_limits<double>::infinity());
+
+/// The limit at which solid_distance() finds every distance of at most `distance` [mm].
+inline double limit_including(double distance) {
+  return std::nextafter(distance, std::numeric_limits<double>::infinity());
+}
 
 }  // namespace dismantle

@@ -6,7 +6,6 @@
 #include "dismantle/surface/solid_distance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -72,11 +71,6 @@ void limit_far_points(GuardedPair& guard, const BoundedSide& a, const BoundedSid
   };
   limit_in(b, a, 0);
   limit_in(a, b, 1);
-}
-
-/// The limit of solid_distance() that finds a distance of no more than this.
-double just_above(double distance) {
-  return std::nextafter(distance, kUnlimited);
 }
 
 }  // namespace
@@ -147,7 +141,7 @@ bool usual_ghosts_apart(const ComponentAt& a, const ComponentAt& b, double toler
   const auto touch = [&](const SolidTree* first, const SolidTree* second) {
     if (first->tree.empty() || second->tree.empty()) return false;
     const SolidDistance found = solid_distance({first, a.world_from_assembled}, {second, b.world_from_assembled},
-                                               just_above(kTouching * tolerance));
+                                               limit_including(kTouching * tolerance));
     return found.distance <= kTouching * tolerance;
   };
   return !touch(a.ghost, b.solid) && !touch(a.solid, b.ghost);
@@ -156,7 +150,7 @@ bool usual_ghosts_apart(const ComponentAt& a, const ComponentAt& b, double toler
 bool further_apart(const ComponentAt& a, const ComponentAt& b, double distance) {
   const PlacedSolid first{a.solid, a.world_from_assembled}, second{b.solid, b.world_from_assembled};
   if (a.solid->tree.empty() || b.solid->tree.empty() || bounds_distance(first, second) > distance) return true;
-  return solid_distance(first, second, just_above(distance)).distance > distance && none_inside(a, b);
+  return solid_distance(first, second, limit_including(distance)).distance > distance && none_inside(a, b);
 }
 
 bool none_inside(const ComponentAt& a, const ComponentAt& b) {

@@ -7,8 +7,6 @@
 #include "dismantle/surface/solid_distance.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace dismantle {
 
@@ -99,8 +97,7 @@ bool CertificateSweeper::near(ComponentId a, ComponentId b, GuardedPair& pair) c
       distance_triangle_triangle({{at_a * s[0], at_a * s[1], at_a * s[2]}}, {{at_b * t[0], at_b * t[1], at_b * t[2]}})
           .distance;
   if (before <= pair.parting) return true;
-  const double above = std::nextafter(pair.parting, std::numeric_limits<double>::infinity());
-  const SolidDistance found = solid_distance({&first, at_a}, {&second, at_b}, above);
+  const SolidDistance found = solid_distance({&first, at_a}, {&second, at_b}, limit_including(pair.parting));
   if (found.distance > pair.parting) return false;
   pair.near_a = found.face_a;
   pair.near_b = found.face_b;
