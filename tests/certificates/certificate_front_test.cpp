@@ -283,7 +283,7 @@ TEST(CertificateFront, LooksForSiblingsMoreRarelyWhereNoneMerge) {
   };
   searches(200);
   EXPECT_LE(searches(128), 3);
-  // A motion for which most of it has to be separated anew.
+  // A motion that invalidates most certificates.
   for (int k = 0; k < 8; ++k) uncertified(front, a, b, {}, {{0.5, 0, 0.01}, quat_about({0, 0, 1}, 0.3 * k)});
   EXPECT_GE(searches(32), 2);
 }

@@ -54,9 +54,8 @@ struct CertificateOptions {
   /// still gets a few, and the step ends where it does not know. The next step continues; after many such steps in
   /// turn, what is not known counts as too deep.
   std::size_t depth_tests = 0;
-  /// Pairs of nodes of trees that the sweeps of a step may separate anew, or 0 for no limit. Once they are used up,
-  /// each sweep still gets a few, and the step ends where it does not know that its motion is free. The next step
-  /// continues.
+  /// Maximum number of node pairs that the sweeps of a step examine, or 0 for no limit. Once it is reached, each sweep
+  /// may still examine a few, and the step ends if its motion is not known to be free. The next step continues.
   std::size_t node_pairs = 0;
   /// Tests of triangle pairs and pieces of surfaces after which a step of response Slide ends early, at a pose that is
   /// free, or 0 for no limit. The next step continues. The limit does not apply to the first try of a step.

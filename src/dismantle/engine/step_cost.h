@@ -20,7 +20,7 @@ struct StepCost {
   std::size_t triangle_pairs = 0;  ///< Triangle pairs left by the broad phase (`streams`: of the last sweep).
   std::size_t tests = 0;           ///< Continuous tests of triangles or of their features, over all sweeps.
   std::size_t device_tests = 0;    ///< Those of `tests` that a device computed.
-  std::size_t node_pairs = 0;      ///< Pairs of hierarchy nodes whose separation was sought anew, over all sweeps.
+  std::size_t node_pairs = 0;      ///< Hierarchy node pairs that had no valid certificate, over all sweeps.
   std::size_t depth_tests = 0;  ///< Points and pieces of surfaces examined to bound the depth of pairs without ghosts.
   std::size_t overlapping_pairs = 0;  ///< Component pairs that are still embedded.
   std::size_t replays = 0;            ///< Stages repeated because a buffer was full.

@@ -35,8 +35,8 @@ class SolidShape {
   const SurfaceTree& surface() const { return *surface_; }
   /// Its winding number [mm, assembly frame].
   const WindingNumber& winding() const { return *winding_; }
-  /// One vertex of each connected part of the surface [mm, assembly frame]. Where a closed surface does not meet it,
-  /// the vertex tells for its whole part on which side of that surface it is.
+  /// One vertex of each connected part of the surface [mm, assembly frame]. A part that does not intersect
+  /// a closed surface is on one side of it, that of its vertex.
   const std::vector<Vec3>& shell_points() const { return shell_points_; }
   /// Where no point is deeper than `limit` [mm]; kept, as it is refined where it is asked.
   const ShallowRegion& shallow_region(double limit) const;

@@ -15,7 +15,7 @@ namespace {
 /// (docs/design/0006-certificates.md derives 40; the rest is margin).
 constexpr double kGapRoundings = 48;
 
-/// A part of which one in this many pairs is separated anew looks for siblings to merge often.
+/// If more than one in this many pairs of a part had to be examined, the part searches for siblings often again.
 constexpr std::size_t kMuchSplit = 16;
 
 RigidTransformF to_float(const RigidTransform& t) {
@@ -81,8 +81,8 @@ FrontSweep CertificateFront::sweep_part(std::size_t index, const PreparedSweep& 
   if (work.items.empty()) return result;
 
   resolve(work, sweep, kernels, test, result);
-  // What a sweep that was cut has found is there for the next one.
   if (work.items.size() * kMuchSplit > part.size()) part.set_merge_period(kMergePeriod);
+  // A sweep that was cut keeps its results for the next one.
   replace(part, work, result.cut || (result.blocked == 0 && result.complete));
   return result;
 }

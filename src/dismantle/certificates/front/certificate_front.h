@@ -44,7 +44,7 @@ struct PreparedSweep : LinearSweep {
   std::vector<ThreadSweep> threads;            ///< Separation of mating threads; those that are useful.
   /// sweep_const() ends soon after so many tests of triangles, incomplete.
   std::size_t max_tests = std::numeric_limits<std::size_t>::max();
-  /// The sweep of a part ends soon after so many pairs of nodes, incomplete.
+  /// The sweep of a part ends, incomplete, soon after it has examined this many node pairs.
   std::size_t max_node_pairs = std::numeric_limits<std::size_t>::max();
 };
 
@@ -52,7 +52,7 @@ struct PreparedSweep : LinearSweep {
 struct FrontSweep {
   float min_gap = 3e38f;           ///< Lower bound of the gaps of the certified pairs during the sweep [mm].
   std::size_t triangle_tests = 0;  ///< Calls of the TrianglePairTest.
-  std::size_t node_pairs = 0;      ///< Pairs of nodes that were separated anew, or could not be.
+  std::size_t node_pairs = 0;      ///< Node pairs examined because they had no valid certificate.
   std::size_t blocked = 0;         ///< Triangle pairs whose verdict was not free.
   bool complete = true;            ///< Every pair was examined.
   bool cut = false;                ///< PreparedSweep::max_node_pairs was reached: not every pair was examined.

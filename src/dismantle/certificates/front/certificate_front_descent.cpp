@@ -46,7 +46,7 @@ void CertificateFront::resolve(Work& work, const PreparedSweep& sweep, const Fro
     }
     result.node_pairs += work.batch.size();
     resolve_batch(work, sweep, kernels, test, result);
-    // After a batch at least: each sweep gets somewhere.
+    // Checked after the first batch, so that every sweep makes progress.
     if (result.node_pairs >= sweep.max_node_pairs && !work.waiting.empty()) {
       result.complete = false;
       result.cut = true;

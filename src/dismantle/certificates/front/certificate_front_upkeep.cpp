@@ -11,7 +11,7 @@ namespace dismantle {
 
 namespace {
 
-/// A part in which less than one in this many pairs merges waits twice as long with its next search, at most this long.
+/// If fewer than one in this many pairs of a part merge, its merge period doubles, up to the longest one.
 constexpr std::size_t kRareMerges = 32, kLongestMergePeriod = 64;
 /// Merging is repeated while it removes more than one in this many pairs.
 constexpr std::size_t kMergeShare = 8;

@@ -79,7 +79,7 @@ class AssemblySurfaces {
   void prepare_pairs(const CertificateOptions& options);
   /// Takes the guard of a pair from those prepared. @return false if it is not known
   bool take_prepared(const ComponentPair& pair);
-  /// Takes guards, and prepares the ghost surfaces of their own that pairs have.
+  /// Stores guards and builds the ghost surfaces that belong to single pairs.
   void add_guards(std::vector<FoundGuard> guards, const Executor& executor);
 
   Assembly assembly_;

@@ -63,13 +63,13 @@ struct CertificateSweep {
   /// False if blocked pairs were left out: `toi` may then be too late, and `blocked` lacks some. A free sweep is always
   /// complete.
   bool complete = true;
-  /// The limit of pairs of nodes was reached: not free, as far as is known. The same sweep, or a shorter one, goes on.
+  /// The limit of node pairs was reached, and the motion counts as blocked. The next sweep continues.
   bool cut = false;
   std::vector<SweepContact> blocked;  ///< Pairs blocked within the window after the first; by components and faces.
   std::vector<BlockedFit> fits;       ///< SweepBudget::WholeCylinders: blocked cylinders, taken as one contact each.
   double clearance = 0;               ///< Lower bound of all distances during the sweep [mm]; 0 if not free.
   std::size_t front = 0;              ///< Node pairs of the fronts used.
-  std::size_t node_pairs = 0;         ///< Pairs of nodes whose separation was sought anew.
+  std::size_t node_pairs = 0;         ///< Node pairs examined because they had no valid certificate.
   std::size_t triangle_tests = 0;     ///< Triangle-pair tests made.
   std::size_t device_tests = 0;       ///< Those of them that a device made.
   std::size_t depth_tests = 0;        ///< Points and pieces of surfaces examined to bound depths.

@@ -108,7 +108,7 @@ class CertificateSweeper {
     depth_tests_left_ -= std::min(sweep.depth_tests, depth_tests_left_);
     node_pairs_left_ -= std::min(sweep.node_pairs + sweep.front / kChecksPerNodePair, node_pairs_left_);
   }
-  /// True if the sweeps of the step have done what a step may do.
+  /// True if the step has reached one of these limits.
   bool is_used_up() const { return depth_tests_left_ == 0 || node_pairs_left_ == 0; }
   /// Ends the step.
   void end_step() { depth_tests_left_ = node_pairs_left_ = kUnlimited; }
@@ -210,7 +210,7 @@ class CertificateSweeper {
   std::size_t parted_count_ = 0;                      ///< Of the pairs in `guarded_`.
   std::vector<ComponentId> changed_;                  ///< Since find_parted() was last called.
   std::vector<bool> is_changed_;
-  /// Certificates that are checked in the time in which a pair of nodes is separated.
+  /// Checking this many certificates takes about as long as examining one node pair.
   static constexpr std::size_t kChecksPerNodePair = 16;
   static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
   ///@{ Of the present step.

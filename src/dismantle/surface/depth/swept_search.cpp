@@ -11,9 +11,10 @@ namespace dismantle {
 
 namespace {
 
-/// Most faces that are sampled of a surface; fewer where a search may examine few pieces, but not fewer than so many.
-constexpr std::size_t kSamples = 2000, kFewestSamples = 100;
+/// One face is sampled for this many pieces that the search may examine, within the limits below.
 constexpr std::size_t kPiecesPerSample = 6;
+/// Maximum and minimum number of faces that are sampled.
+constexpr std::size_t kSamples = 2000, kFewestSamples = 100;
 /// As many nodes or known parts take as long as a piece that is examined.
 constexpr std::size_t kKnownInPiece = 8;
 /// An attempt with known parts ends after this many new pieces; points are then sampled before the full search.

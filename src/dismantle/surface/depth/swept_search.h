@@ -56,8 +56,8 @@ class SweptSearch {
   bool is_deep(Vec3 own, double time) const {
     return parts_.is_deep(own, InterpolatedTransform(start_, end_, time) * own);
   }
-  /// A sampled point that is too deep at a time. @param max_pieces of the whole search: fewer are sampled of a short
-  /// one
+  /// A sampled point that is too deep at a time. @param max_pieces that the whole search may examine; bounds the
+  /// number of samples
   std::optional<TimedPoint> sample(double time, std::size_t max_pieces);
   /// Some point that is too deep in [from, to]; the pieces are counted.
   Result find(double from, double to, std::size_t& pieces, std::size_t max_pieces);
