@@ -28,6 +28,8 @@ struct Clearance {
 /// Which contact of a linear motion is sought.
 enum class StraightSearch {
   Any,    ///< Any contact: decides if the motion is free.
+  /// The first contact, or, of a pair whose depth is bounded, one soon after it that takes less time to find.
+  Near,
   First,  ///< The first contact.
 };
 

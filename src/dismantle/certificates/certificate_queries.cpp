@@ -109,6 +109,25 @@ namespace {
 /// Each sweep for the first contact is shorter by at least this share of the tolerance, twice as much each time: else
 /// contacts that are hardly nearer each time would go on forever.
 constexpr double kShorter = 0.05;
+/// With StraightSearch::Near, a contact before this many tolerances is near enough to the first one.
+constexpr double kNear = 4;
+
+/// Where two components meet: the faces of a contact, or, where it is not known to be one, those nearest to each other.
+StraightContact meeting(const CertificateSweeper& sweeper, const LinearMotion& motion, double at_share,
+                        const SweepContact& contact, bool is_known) {
+  const Vec3 moved = at_share * motion.displacement;
+  const Pose pose{motion.pose_moving.position + moved, motion.pose_moving.rotation};
+  const SolidTree &moving = sweeper.solid(motion.moving), &fixed = sweeper.solid(motion.fixed);
+  if (!is_known) {
+    const SolidDistance nearest = solid_distance({&moving, transform_from_pose(pose)},
+                                                 {&fixed, transform_from_pose(motion.pose_fixed)}, kInfinite);
+    return {length(moved), nearest.face_a, nearest.face_b, nearest.point_b};
+  }
+  const Triangle of_moving = at(moving.triangle(contact.face_moving.value), pose);
+  const Triangle of_fixed = at(fixed.triangle(contact.face_fixed.value), motion.pose_fixed);
+  return {length(moved), contact.face_moving, contact.face_fixed,
+          distance_triangle_triangle(of_moving, of_fixed).point_b};
+}
 
 /// The contact in part of a motion.
 /// @param from, to the part, as fractions of the displacement; what is before it is free already
@@ -116,21 +135,20 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
                                                double from, double to, StraightSearch search) {
   std::optional<StraightContact> contact;
   double shorter = kShorter * sweeper.tolerance() / length(motion.displacement);
+  const bool is_depth_bounded = sweeper.guarded(motion.moving, motion.fixed).guard == PairGuard::Depth;
   // Any contact shortens the motion; if the rest is free it was the first.
   while (to > from) {
     const CertificateSweep found =
-        sweeper.sweep_linear(motion, from, to, search == StraightSearch::Any ? DeepSearch::Any : DeepSearch::First);
+        sweeper.sweep_linear(motion, from, to, search == StraightSearch::First ? DeepSearch::First : DeepSearch::Any);
     if (found.free) break;
     const auto first = std::min_element(found.blocked.begin(), found.blocked.end(),
                                         [](const SweepContact& a, const SweepContact& b) { return a.toi < b.toi; });
     to = std::max(from, std::min(from + (to - from) * first->toi, to - shorter));
     shorter *= 2;
-    Triangle moving = at(sweeper.solid(motion.moving).triangle(first->face_moving.value), motion.pose_moving);
-    for (Vec3& p : moving.corner) p += to * motion.displacement;
-    const Triangle fixed = at(sweeper.solid(motion.fixed).triangle(first->face_fixed.value), motion.pose_fixed);
-    contact = {to * length(motion.displacement), first->face_moving, first->face_fixed,
-               distance_triangle_triangle(moving, fixed).point_b};
-    if (search == StraightSearch::Any) break;
+    contact = meeting(sweeper, motion, to, *first, !found.undecided);
+    // Nothing gets too deep before the time at which depths end.
+    if (search == StraightSearch::Any || is_depth_bounded) break;
+    if (search == StraightSearch::Near && contact->distance <= kNear * sweeper.tolerance()) break;
   }
   return contact;
 }

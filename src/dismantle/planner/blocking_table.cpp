@@ -330,8 +330,8 @@ void BlockingTable::add_blocker(ComponentId moving, DirectionId d, ComponentId f
 
 std::optional<StraightContact> BlockingTable::contact(ComponentId moving, DirectionId d, ComponentId fixed) const {
   const double way = way_past(moving, d, fixed);
-  if (!(way > 0)) return std::nullopt;
-  return engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::First);
+  if (!(way > 0) || !keep_going_()) return std::nullopt;
+  return engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::Near);
 }
 
 }  // namespace dismantle

@@ -84,7 +84,8 @@ class BlockingTable {
   void follow(const JointRelations* joints) { joints_ = joints; }
   /// Records that `fixed` blocks, by a rule that a single sweep does not test.
   void add_blocker(ComponentId moving, DirectionId d, ComponentId fixed);
-  /// The first contact with a blocking component; none if it does not block.
+  /// A contact with a blocking component, the first one or not much later (StraightSearch::Near); none if it does not
+  /// block, or the search ended.
   std::optional<StraightContact> contact(ComponentId moving, DirectionId d, ComponentId fixed) const;
 
  private:

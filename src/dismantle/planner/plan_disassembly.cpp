@@ -9,8 +9,10 @@
 #include "dismantle/planner/joint_relations.h"
 #include "dismantle/planner/joint_steps.h"
 #include "dismantle/planner/least_overlap.h"
+#include "dismantle/planner/plan_time.h"
 #include "dismantle/planner/search/curved_steps.h"
 #include "dismantle/planner/search/direction_choice.h"
+#include "dismantle/planner/search/fixed_components.h"
 #include "dismantle/planner/search/free_component_search.h"
 #include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/planner/search/removal_search.h"
@@ -19,19 +21,16 @@
 #include "dismantle/surface/equal_shapes.h"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 namespace dismantle {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// Relative difference below which components count as equally large (rounding in a rotated assembly).
-constexpr double kSameSize = 1e-6;
+/// CertificateOptions::depth_tests of a step: about half a second.
+constexpr std::size_t kDepthTests = 50000;
 /// Distance at which removed components stand, in diagonals of the assembly.
 constexpr double kFarAway = 100;
 
@@ -53,6 +52,7 @@ class Planner {
       : assembly_(assembly),
         options_(options),
         count_(assembly.components.size()),
+        time_(options.time_limit),
         groups_(groups_of(assembly, options)),
         targets_(groups_.with_groups(options.targets)),
         fixed_(groups_.with_groups(options.fixed)),
@@ -62,7 +62,7 @@ class Planner {
         early_(count_),
         validator_(assembly, pairs, engine_options(), groups_, kFarAway * diagonal(assembled_bounds(assembly)),
                    [this] { return keep_going(); }),
-        table_(validator_.engine(), features_, groups_, [this] { return in_time(); }),
+        table_(validator_.engine(), features_, groups_, [this] { return time_.is_left(); }),
         choice_(planned(pairs), table_, validator_.engine(), without_directions(), options.engine.executor,
                 [this] { return keep_going(); }),
         joint_steps_(relations_, table_, choice_, groups_),
@@ -92,20 +92,28 @@ class Planner {
       take_out(all, targets_, PlanStep::kWhole);
     }
     take_apart_bodies();
-    plan_.out_of_time = stopped_;
-    plan_.effort_spent = !stopped_ && curved_.may_find_more(plan_.staying);
+    explain_left();
+    plan_.out_of_time = time_.has_run_out();
+    plan_.effort_spent = !plan_.out_of_time && curved_.may_find_more(plan_.staying);
     plan_.joints = joints_;
-    plan_.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    plan_.seconds = time_.seconds();
     return std::move(plan_);
   }
-  Explanation explain_assembled(ComponentId component) { return explanation(component, ComponentSet::all(count_)); }
+  Explanation explain_assembled(ComponentId component) {
+    time_.begin_reasons();
+    const Span<const DirectionId> directions = choice_.directions()[component.value];
+    Explanation found = explain(table_, component, directions, ComponentSet::all(count_), keep_going_);
+    add_overlap(found, ComponentSet::all(count_));
+    return found;
+  }
 
  private:
   PlannedAssembly planned(const PairStates& pairs) const { return {assembly_, features_, pairs.tolerance}; }
 
   CertificateOptions engine_options() {
     CertificateOptions options = options_.engine;
-    options.keep_going = [this] { return in_time(); };
+    options.keep_going = [this] { return time_.is_left(); };
+    if (options.depth_tests == 0) options.depth_tests = kDepthTests;
     return options;
   }
 
@@ -120,31 +128,11 @@ class Planner {
     const std::lock_guard lock(progress_mutex_);
     const std::string found = plan_.steps.empty() ? "" : ", " + count_text(plan_.steps.size(), "step") + " found";
     const double share = static_cast<double>(taken_out_) / static_cast<double>(std::max<std::size_t>(1, count_));
-    if (!stopped_ && !report_progress(options_.progress, "planning" + found, share)) stopped_ = true;
-    return in_time();
-  }
-  /// False once the time limit ends the search; thread-safe.
-  bool in_time() {
-    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-    if (options_.time_limit > 0 && elapsed > options_.time_limit) stopped_ = true;
-    return !stopped_;
+    if (!time_.is_over() && !report_progress(options_.progress, "planning" + found, share)) time_.cancel();
+    return time_.is_left();
   }
 
-  /// The components of a body that stay where they are while it is taken apart: the fixed ones, or the largest.
-  ComponentSet staying_of(const ComponentSet& body) const {
-    ComponentSet staying(count_);
-    for (const ComponentId c : fixed_)
-      if (body.has(c)) staying.insert(c);
-    if (staying.size() > 0) return staying;
-    const std::vector<ComponentId> members = body.members();
-    double largest = 0;
-    for (const ComponentId c : members) largest = std::max(largest, features_[c.value].area);
-    const ComponentId largest_one = *std::find_if(members.begin(), members.end(), [&](ComponentId c) {
-      return features_[c.value].area >= (1 - kSameSize) * largest;
-    });
-    for (const ComponentId c : groups_.of(largest_one)) staying.insert(c);
-    return staying;
-  }
+  ComponentSet staying_of(const ComponentSet& body) const { return fixed_components(body, fixed_, features_, groups_); }
 
   /// The searches that a plan makes for the next step.
   enum class Effort {
@@ -161,7 +149,11 @@ class Planner {
         ComponentSet left = take_away(body.left, body.staying, body.part_of, effort);
         bodies_[i].left = std::move(left);
       }
-    for (const Body& body : bodies_) explain_left(body.left, staying_of(body.left));
+    for (const Body& body : bodies_) {
+      const ComponentSet staying = staying_of(body.left);
+      for (const ComponentId c : body.left.members())
+        if (!staying.has(c) && curved_.leads(c)) left_.emplace_back(c, body.left);
+    }
   }
 
   /// Removes the targets from a body with as few others as possible; if straight motions are not enough, by themselves.
@@ -177,9 +169,9 @@ class Planner {
       left = take_away(body, staying, part_of, Effort::Any);
       std::vector<PlanStep> found(plan_.steps.begin() + static_cast<std::ptrdiff_t>(steps), plan_.steps.end());
       if (found.size() > given_up.size()) given_up = std::move(found);
-      if (!left.has_any(targets) || (!needed && !stopped_)) break;
+      if (!left.has_any(targets) || (!needed && !time_.is_over())) break;
       plan_.steps.resize(steps);
-      if (stopped_) {  // what was found must not get less because the search was ended
+      if (time_.is_over()) {  // what was found must not get less because the search was ended
         plan_.steps.insert(plan_.steps.end(), given_up.begin(), given_up.end());
         break;
       }
@@ -188,7 +180,7 @@ class Planner {
       bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(bodies), bodies_.end());
     }
     for (const ComponentId target : targets)
-      if (left.has(target) && curved_.leads(target) && keep_going()) plan_.staying.push_back(explanation(target, left));
+      if (left.has(target) && curved_.leads(target)) left_.emplace_back(target, left);
   }
 
   /// The components that have to go for the targets: with the fasteners that hold them, if there is a way.
@@ -301,7 +293,7 @@ class Planner {
       return preferred_removals({table_, choice_.directions(), kinds(), options_.preferences, early_}, body, staying,
                                 before);
     }
-    std::vector<StraightRemoval> single = search.find(options_.engine.executor, [this] { return in_time(); });
+    std::vector<StraightRemoval> single = search.find(options_.engine.executor, [this] { return time_.is_left(); });
     std::stable_sort(single.begin(), single.end(), [this](const StraightRemoval& a, const StraightRemoval& b) {
       const bool a_is_early = early_.has(a.components[0]), b_is_early = early_.has(b.components[0]);
       if (a_is_early != b_is_early) return a_is_early;
@@ -333,25 +325,30 @@ class Planner {
     return std::nullopt;
   }
 
-  Explanation explanation(ComponentId c, const ComponentSet& present) {
-    Explanation found = explain(table_, c, choice_.directions()[c.value], present);
-    if (options_.overlap_limit > 0 && !found.blockers.empty())
-      found.overlap = overlaps_.find(c, choice_.directions()[c.value], present, options_.overlap_limit,
-                                     [this] { return keep_going(); });
-    return found;
+  void add_overlap(Explanation& reason, const ComponentSet& present) {
+    if (options_.overlap_limit > 0 && !reason.blockers.empty())
+      reason.overlap = overlaps_.find(reason.component, choice_.directions()[reason.component.value], present,
+                                      options_.overlap_limit, keep_going_);
+    if (!keep_going()) reason.overlap.reset();  // of what was not tested
   }
 
-  void explain_left(const ComponentSet& left, const ComponentSet& staying) {
-    for (const ComponentId c : left.members())
-      if (!staying.has(c) && curved_.leads(c) && keep_going()) plan_.staying.push_back(explanation(c, left));
+  /// Explains why components are left; what would have to be allowed for them, which takes longer, comes last.
+  void explain_left() {
+    time_.begin_reasons();
+    for (const auto& [left, present] : left_) {
+      Explanation reason = explain(table_, left, choice_.directions()[left.value], present, keep_going_);
+      if (!keep_going()) return;  // what was not tested counts as blocked there
+      plan_.staying.push_back(std::move(reason));
+    }
+    for (std::size_t i = 0; i < plan_.staying.size() && keep_going(); ++i)
+      add_overlap(plan_.staying[i], left_[i].second);
   }
 
   const Assembly& assembly_;
   const PlanOptions& options_;
   std::size_t count_;
   ///@{ For keep_going(), which constructors of the members below call already.
-  Clock::time_point start_ = Clock::now();
-  std::atomic<bool> stopped_ = false;
+  PlanTime time_;
   std::mutex progress_mutex_;
   std::size_t taken_out_ = 0;
   Plan plan_;
@@ -379,6 +376,7 @@ class Planner {
     std::uint32_t part_of;
   };
   std::vector<Body> bodies_;
+  std::vector<std::pair<ComponentId, ComponentSet>> left_;  // not removed, and what is present with it
 };
 
 }  // namespace

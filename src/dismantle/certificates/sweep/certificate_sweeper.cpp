@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kSampleSize = 32;
 /// It examines this many parts of fronts at a time, and ends after those with which this many pairs are blocked.
 constexpr std::size_t kPartsAtATime = 16, kEnoughBlocked = 64;
+/// A query of a translation gives up bounding a depth after this many pieces, about a second: many are made.
+constexpr std::size_t kMaxLinearPieces = 100000;
 /// Every sweep may examine at least this many node pairs, whatever the other sweeps of its step have used.
 constexpr std::size_t kFewestNodePairs = 512;
 
@@ -296,7 +298,7 @@ CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, do
     return seen_from(motion.pose_fixed,
                      {motion.pose_moving.position + share * motion.displacement, motion.pose_moving.rotation});
   };
-  sweep_depth({moving, fixed, at(from), at(to)}, search_for, result);
+  sweep_depth({moving, fixed, at(from), at(to)}, search_for, result, 1, nullptr, kMaxLinearPieces);
   for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
     const TestedPair tested{moving, fixed, surfaces};
     const TrianglePairSweep triangle_pairs(moving_surface(tested), fixed_surface(tested), at(from), at(to), 0,

@@ -156,8 +156,9 @@ class CertificateSweeper {
   /// How the surface of the first component was found to be shallow in the second one.
   using KnownDepth = std::map<std::pair<ComponentId, ComponentId>, ShallowParts>;
   /// Adds the contact of components whose depth is bounded, if there is one up to a time. @param known may be null
+  /// @param max_pieces of first_deeper(): where it gives up earlier than by itself, the result is undecided
   void sweep_depth(const SeenMotion& motion, DeepSearch search_for, CertificateSweep& result, double until = 1,
-                   KnownDepth* known = nullptr) const;
+                   KnownDepth* known = nullptr, std::size_t max_pieces = kMaxSweptPieces) const;
   /// Adds the contacts of such pairs that are not later than those known by more than `window`.
   void sweep_depths(const std::vector<SeenMotion>& motions, double window, CertificateSweep& result);
   double displaced(ComponentId a, ComponentId b) const {

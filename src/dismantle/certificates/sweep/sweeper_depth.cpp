@@ -20,7 +20,7 @@ constexpr std::size_t kFewestTests = 150;
 }  // namespace
 
 void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search_for, CertificateSweep& result,
-                                     double until, KnownDepth* known) const {
+                                     double until, KnownDepth* known, std::size_t max_pieces) const {
   const GuardedPair pair = guarded(motion.moving, motion.fixed);
   if (pair.guard != PairGuard::Depth) return;
   if (result.undecided) {  // the set will not move: this pair's turn comes once the one before is decided
@@ -35,8 +35,8 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
     swept.known_a = &(*known)[{motion.moving, motion.fixed}];
     swept.known_b = &(*known)[{motion.fixed, motion.moving}];
   }
-  const std::size_t most = std::min(
-      kMaxSweptPieces, std::max(kFewestTests, depth_tests_left_ - std::min(depth_tests_left_, result.depth_tests)));
+  const std::size_t most =
+      std::min(max_pieces, std::max(kFewestTests, depth_tests_left_ - std::min(depth_tests_left_, result.depth_tests)));
   const auto deep =
       first_deeper(swept, depth_limits(pair, motion.moving < motion.fixed, tolerance_), kResolution * tolerance_ / way,
                    most, options_.keep_going, search_for, &result.depth_tests);
@@ -46,7 +46,9 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
   const Screw screw = screw_between(motion.start, motion.end);
   const Pose then = screw_at(screw, deep->time) * motion.start;
   const RigidTransform at = transform_from_pose(then);
-  SweepContact contact{motion.moving, motion.fixed, FaceId(deep->face_a), FaceId(deep->face_b), deep->free_until, {}};
+  // Before any point that is deep, others may be, too.
+  const double at_time = search_for == DeepSearch::Any ? deep->time : deep->free_until;
+  SweepContact contact{motion.moving, motion.fixed, FaceId(deep->face_a), FaceId(deep->face_b), at_time, {}};
   const Vec3 inside = deep->of_a ? deep->point : at * deep->nearest;
   const Vec3 surface = deep->of_a ? deep->nearest : at * deep->point;
   contact.axis = normalized(inside - surface);

@@ -80,9 +80,10 @@ StepResult MotionValidator::go_part(const Pose& target, const Vec3& direction) {
   for (int starts = 1;; ++starts) {
     const Vec3 before = pose().position;
     StepResult made = step(target, ResponseKind::Touch);
+    if (made.reached || starts == kMaxStarts || !keep_going_()) return made;
     // A restart may go on where a sweep stopped: see straight_contact.
     const double progress = dot(made.pose.position - before, direction);
-    if (made.reached || starts == kMaxStarts || !keep_going_() || progress < kNewStartShare * tolerance_) return made;
+    if (!made.unfinished && progress < kNewStartShare * tolerance_) return made;
   }
 }
 

@@ -41,12 +41,14 @@ class PairSearch {
         max_pieces_(max_pieces),
         keep_going_(keep_going) {}
 
-  /// A point that is too deep at some time, found by looking at ever later times.
+  /// A point that is too deep at some time, found by looking at ever later times; since it is deep.
   std::optional<DeepPoint> sampled() {
     for (double time = kFirstPart * resolution_;; time *= 2) {
       for (const int of : {0, 1})
-        if (const auto found = searches_[of].sample(std::min(until_, time), max_pieces_))
-          return searches_[of].deep_point(*found, of == 0);
+        if (const auto found = searches_[of].sample(std::min(until_, time), max_pieces_)) {
+          know(*found, of);
+          return searches_[of].deep_point(*known_, of == 0);
+        }
       if (time >= until_) return std::nullopt;
     }
   }
