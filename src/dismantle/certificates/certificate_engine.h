@@ -27,8 +27,8 @@ struct Clearance {
 
 /// Which contact of a linear motion is sought.
 enum class StraightSearch {
-  Any,    ///< Any contact: decides if the motion is free.
-  /// The first contact, or, of a pair whose depth is bounded, one soon after it that takes less time to find.
+  Any,  ///< Any contact: decides if the motion is free.
+  /// The first contact or one soon after it, in less time: within some tolerances, but where depths are bounded.
   Near,
   First,  ///< The first contact.
 };
