@@ -109,8 +109,11 @@ namespace {
 /// Each sweep for the first contact is shorter by at least this share of the tolerance, twice as much each time: else
 /// contacts that are hardly nearer each time would go on forever.
 constexpr double kShorter = 0.05;
-/// With StraightSearch::Near, a contact before this many tolerances is near enough to the first one.
+/// With StraightSearch::Near, a contact before this many tolerances counts as one at the start.
 constexpr double kNear = 4;
+/// A search for a contact, which others may do without, gives up bounding a depth after this many pieces: about a
+/// second.
+constexpr std::size_t kMaxPieces = 100000;
 
 /// Where two components meet: the faces of a contact, or, where it is not known to be one, those nearest to each other.
 StraightContact meeting(const CertificateSweeper& sweeper, const LinearMotion& motion, double at_share,
@@ -139,7 +142,8 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
   // Any contact shortens the motion; if the rest is free it was the first.
   while (to > from) {
     const CertificateSweep found =
-        sweeper.sweep_linear(motion, from, to, search == StraightSearch::First ? DeepSearch::First : DeepSearch::Any);
+        sweeper.sweep_linear(motion, from, to, search == StraightSearch::First ? DeepSearch::First : DeepSearch::Any,
+                             search == StraightSearch::Any ? kMaxSweptPieces : kMaxPieces);
     if (found.free) break;
     const auto first = std::min_element(found.blocked.begin(), found.blocked.end(),
                                         [](const SweepContact& a, const SweepContact& b) { return a.toi < b.toi; });
@@ -148,7 +152,10 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
     contact = meeting(sweeper, motion, to, *first, !found.undecided);
     // Nothing gets too deep before the time at which depths end.
     if (search == StraightSearch::Any || is_depth_bounded) break;
-    if (search == StraightSearch::Near && contact->distance <= kNear * sweeper.tolerance()) break;
+    if (search == StraightSearch::Near && contact->distance <= kNear * sweeper.tolerance()) {
+      contact->distance = 0;
+      break;
+    }
   }
   return contact;
 }

@@ -15,8 +15,6 @@ namespace {
 constexpr std::size_t kSampleSize = 32;
 /// It examines this many parts of fronts at a time, and ends after those with which this many pairs are blocked.
 constexpr std::size_t kPartsAtATime = 16, kEnoughBlocked = 64;
-/// A query of a translation gives up bounding a depth after this many pieces, about a second: many are made.
-constexpr std::size_t kMaxLinearPieces = 100000;
 /// Every sweep may examine at least this many node pairs, whatever the other sweeps of its step have used.
 constexpr std::size_t kFewestNodePairs = 512;
 
@@ -290,7 +288,7 @@ CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, doub
 }
 
 CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, double from, double to,
-                                                  DeepSearch search_for) const {
+                                                  DeepSearch search_for, std::size_t max_pieces) const {
   const ComponentId moving = motion.moving, fixed = motion.fixed;
   CertificateSweep result;
   if (solid(moving).tree.empty() || solid(fixed).tree.empty()) return result;
@@ -298,7 +296,7 @@ CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, do
     return seen_from(motion.pose_fixed,
                      {motion.pose_moving.position + share * motion.displacement, motion.pose_moving.rotation});
   };
-  sweep_depth({moving, fixed, at(from), at(to)}, search_for, result, 1, nullptr, kMaxLinearPieces);
+  sweep_depth({moving, fixed, at(from), at(to)}, search_for, result, 1, nullptr, max_pieces);
   for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
     const TestedPair tested{moving, fixed, surfaces};
     const TrianglePairSweep triangle_pairs(moving_surface(tested), fixed_surface(tested), at(from), at(to), 0,

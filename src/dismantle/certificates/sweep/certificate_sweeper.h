@@ -49,8 +49,9 @@ class CertificateSweeper {
   CertificateSweep sweep_const(const ScrewMotion& motion, double window) const;
   /// Sweeps part of a translation of one component past another: reports if it is free, and else some contacts, not
   /// necessarily the first. Independent of the moving set and of all poses. Free for pairs without ghost surfaces.
-  /// @param from, to the part, as fractions of the displacement @param search_for of pairs whose depth is bounded
-  CertificateSweep sweep_linear(const LinearMotion& motion, double from, double to, DeepSearch search_for) const;
+  /// @param from, to the part, as fractions of the displacement @param search_for, max_pieces of first_deeper()
+  CertificateSweep sweep_linear(const LinearMotion& motion, double from, double to, DeepSearch search_for,
+                                std::size_t max_pieces) const;
   /// The triangle pairs that are nearer than `reach` [mm] at the present poses, and possibly some more.
   std::vector<SweepContact> near_pairs(double reach) const;
   /// The same as if a component, at its present pose, were the moving set. Any number may run in parallel.
