@@ -291,5 +291,18 @@ TEST(PlanDisassembly, TakesProductsOfManyEqualPartsApart) {
   EXPECT_TRUE(audit_path(scene.assembly, plan_path(scene.assembly, scene.pairs, plan)).holds());
 }
 
+/// Each step of a motion may bound little of a depth, and the next goes on.
+TEST(PlanDisassembly, TakesAPartOutInStepsThatEndBeforeTheDepthIsBounded) {
+  const TriangleMesh rod = scenes::tube(1, 0, -10, 10, 48, 4);
+  const Assembly rods = scenes::assembly(
+      {scenes::component("rod", rod),
+       scenes::component("across", scenes::moved(rod, {{0.2, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)}))});
+  const scenes::PlanScene scene = scenes::plan_scene(rods, 0.01);
+  PlanOptions options;
+  options.slide_effort = options.sample_effort = 0;
+  options.engine.depth_tests = 300;
+  EXPECT_TRUE(plan_disassembly(scene.assembly, scene.pairs, options).complete());
+}
+
 }  // namespace
 }  // namespace dismantle

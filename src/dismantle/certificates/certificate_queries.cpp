@@ -111,8 +111,8 @@ namespace {
 constexpr double kShorter = 0.05;
 /// With StraightSearch::Near, a contact before this many tolerances counts as one at the start.
 constexpr double kNear = 4;
-/// A search for a contact, which others may do without, gives up bounding a depth after this many pieces: about a
-/// second.
+/// Where the contact itself is sought, and not only whether there is one, the search gives up bounding a depth after
+/// this many pieces, which take about a second.
 constexpr std::size_t kMaxPieces = 100000;
 
 /// Where two components meet: the faces of a contact, or, where it is not known to be one, those nearest to each other.

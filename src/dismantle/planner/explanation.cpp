@@ -39,7 +39,7 @@ std::vector<ComponentId> blockers_of(BlockingTable& table, Span<const ComponentI
   return blockers;
 }
 
-/// The contact of a group with a blocker, about the first one.
+/// The first contact of a group with a blocker, or one shortly after it.
 StraightContact first_contact(const BlockingTable& table, Span<const ComponentId> group, DirectionId d,
                               ComponentId blocker) {
   std::optional<StraightContact> first;
@@ -50,7 +50,7 @@ StraightContact first_contact(const BlockingTable& table, Span<const ComponentId
   return first.value_or(StraightContact{});
 }
 
-/// About the distance to the first contact with a blocker [mm].
+/// The distance to the first contact with a blocker, approximately [mm].
 double way_to_first(const BlockingTable& table, Span<const ComponentId> group, DirectionId d,
                     const std::vector<ComponentId>& blockers) {
   double way = std::numeric_limits<double>::infinity();
@@ -61,7 +61,7 @@ double way_to_first(const BlockingTable& table, Span<const ComponentId> group, D
 }  // namespace
 
 Explanation explain(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
-                    const ComponentSet& present, const KeepGoing& keep_going) {
+                    const ComponentSet& present) {
   DISMANTLE_EXPECT(!directions.empty());
   const Span<const ComponentId> group = table.groups().of(component);
   ComponentSet others = present;
@@ -70,7 +70,6 @@ Explanation explain(BlockingTable& table, ComponentId component, Span<const Dire
   std::vector<ComponentId> fewest;
   double furthest = 0;
   for (const DirectionId d : directions) {
-    if (best.valid() && keep_going && !keep_going()) break;
     const std::size_t enough = best.valid() ? fewest.size() + 1 : present.size();
     std::vector<ComponentId> blockers = blockers_of(table, group, d, others, enough);
     if (best.valid() && blockers.size() > fewest.size()) continue;

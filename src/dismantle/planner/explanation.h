@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dismantle/core/keep_going.h"
 #include "dismantle/planner/blocking_table.h"
 #include "dismantle/planner/plan.h"
 
@@ -12,10 +11,10 @@ namespace dismantle {
 /// Explains what blocks the straight removal of a component, with its group, from `present`: along the direction with
 /// the fewest blockers, and of equal ones the first along which it gets clearly further. Without blockers it can be
 /// removed.
-/// @param keep_going may be empty; once it returns false, ends with what was found so far, of which some may be wrong
+/// Relations that the table does not test any more, since its search ended, count as blocking.
 /// @pre directions is not empty
 Explanation explain(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
-                    const ComponentSet& present, const KeepGoing& keep_going);
+                    const ComponentSet& present);
 
 /// "+Z" or "-X" for a coordinate axis (within a thousandth), else "(0.577, -0.577, 0.577)".
 std::string direction_text(const Vec3& unit);

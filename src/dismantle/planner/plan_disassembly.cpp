@@ -102,7 +102,7 @@ class Planner {
   Explanation explain_assembled(ComponentId component) {
     time_.begin_reasons();
     const Span<const DirectionId> directions = choice_.directions()[component.value];
-    Explanation found = explain(table_, component, directions, ComponentSet::all(count_), keep_going_);
+    Explanation found = explain(table_, component, directions, ComponentSet::all(count_));
     add_overlap(found, ComponentSet::all(count_));
     return found;
   }
@@ -329,15 +329,15 @@ class Planner {
     if (options_.overlap_limit > 0 && !reason.blockers.empty())
       reason.overlap = overlaps_.find(reason.component, choice_.directions()[reason.component.value], present,
                                       options_.overlap_limit, keep_going_);
-    if (!keep_going()) reason.overlap.reset();  // of what was not tested
+    if (!keep_going()) reason.overlap.reset();  // likewise
   }
 
   /// Explains why components are left; what would have to be allowed for them, which takes longer, comes last.
   void explain_left() {
     time_.begin_reasons();
     for (const auto& [left, present] : left_) {
-      Explanation reason = explain(table_, left, choice_.directions()[left.value], present, keep_going_);
-      if (!keep_going()) return;  // what was not tested counts as blocked there
+      Explanation reason = explain(table_, left, choice_.directions()[left.value], present);
+      if (!keep_going()) return;  // it may rest on relations that were not tested
       plan_.staying.push_back(std::move(reason));
     }
     for (std::size_t i = 0; i < plan_.staying.size() && keep_going(); ++i)
@@ -376,7 +376,7 @@ class Planner {
     std::uint32_t part_of;
   };
   std::vector<Body> bodies_;
-  std::vector<std::pair<ComponentId, ComponentSet>> left_;  // not removed, and what is present with it
+  std::vector<std::pair<ComponentId, ComponentSet>> left_;  // what was not removed, and from among what
 };
 
 }  // namespace

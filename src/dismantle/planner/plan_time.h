@@ -23,7 +23,7 @@ class PlanTime {
   void cancel() { is_cancelled_ = true; }
   /// True if the plan was cancelled or a call of is_left() found that time is up.
   bool is_over() const { return is_up_ || is_cancelled_; }
-  /// From now on reasons are sought. @pre no other thread uses this
+  /// Ends the time for steps; reasons may take what is left of the limit. @pre no other thread uses this
   void begin_reasons() {
     has_missed_steps_ = is_over();
     end_ = limit_;

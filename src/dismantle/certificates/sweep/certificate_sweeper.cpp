@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kSampleSize = 32;
 /// It examines this many parts of fronts at a time, and ends after those with which this many pairs are blocked.
 constexpr std::size_t kPartsAtATime = 16, kEnoughBlocked = 64;
-/// Every sweep may examine at least this many node pairs, whatever the other sweeps of its step have used.
+/// Every sweep may examine at least this many node pairs, even after its step has reached the limit.
 constexpr std::size_t kFewestNodePairs = 512;
 
 /// The one of the moving (first) and the fixed (second) component that is represented by its ghost.

@@ -46,7 +46,7 @@ void CertificateSweeper::sweep_depth(const SeenMotion& motion, DeepSearch search
   const Screw screw = screw_between(motion.start, motion.end);
   const Pose then = screw_at(screw, deep->time) * motion.start;
   const RigidTransform at = transform_from_pose(then);
-  // Before any point that is deep, others may be, too.
+  // DeepSearch::Any does not say until when nothing is deep: the time of its point is the best estimate.
   const double at_time = search_for == DeepSearch::Any ? deep->time : deep->free_until;
   SweepContact contact{motion.moving, motion.fixed, FaceId(deep->face_a), FaceId(deep->face_b), at_time, {}};
   const Vec3 inside = deep->of_a ? deep->point : at * deep->nearest;

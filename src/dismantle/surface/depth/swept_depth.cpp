@@ -41,7 +41,7 @@ class PairSearch {
         max_pieces_(max_pieces),
         keep_going_(keep_going) {}
 
-  /// A point that is too deep at some time, found by looking at ever later times; since it is deep.
+  /// A point that is too deep, at the time at which it becomes so; found by sampling ever later times.
   std::optional<DeepPoint> sampled() {
     for (double time = kFirstPart * resolution_;; time *= 2) {
       for (const int of : {0, 1})
