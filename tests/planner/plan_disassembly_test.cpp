@@ -44,6 +44,7 @@ TEST(PlanDisassembly, TakesOutWhatGoesStraight) {
 
 std::vector<ComponentId> ids(const Assembly& assembly, const std::vector<std::string>& names) {
   std::vector<ComponentId> found;
+  found.reserve(names.size());
   for (const std::string& name : names) found.push_back(*assembly.find(name));
   std::sort(found.begin(), found.end());
   return found;
