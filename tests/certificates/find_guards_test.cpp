@@ -191,30 +191,50 @@ TEST(FurtherApart, IsTrueOutsideOfEachOtherAndFromThatDistanceOn) {
   }
 }
 
-TEST(NoneInside, LooksAtEachShellAndAtEveryVertexWhereTheOtherOneIsOpen) {
-  // Two discs as one component, of which the second may be within a box, in its wall, or outside.
-  const auto none_inside_at = [](Vec3 second, bool box_is_open) {
-    TriangleMesh discs = scenes::tube(0.2, 0, -30, -29, 12);
-    discs = scenes::joined(std::move(discs), scenes::moved(scenes::tube(0.2, 0, -0.2, 0.2, 12), {second, {}}));
-    TriangleMesh box = scenes::box({-2, -2, -2}, {2, 2, 2});
-    if (box_is_open) box.faces.pop_back();
-    const Assembly assembly =
-        scenes::assembly({scenes::component("discs", std::move(discs)), scenes::component("box", std::move(box))});
-    const AssemblySurfaces surfaces(assembly, {kTolerance, {}});
-    const SolidShape shapes[] = {SolidShape(assembly.components[0]), SolidShape(assembly.components[1])};
-    EXPECT_EQ(shapes[0].shell_points().size(), 2u);
-    const auto at = [&](std::uint32_t c) {
-      const ComponentId id(c);
-      return ComponentAt{&surfaces.solid(id), &surfaces.ghost(id), {}, [&shapes, c] { return &shapes[c]; }};
-    };
-    EXPECT_EQ(none_inside(at(0), at(1)), none_inside(at(1), at(0)));
-    return none_inside(at(0), at(1));
+/// none_inside() of two components whose surfaces are further apart than a distance, either way round.
+bool none_inside_of(TriangleMesh first, Component second, double distance) {
+  Assembly assembly = scenes::assembly({scenes::component("first", std::move(first)), std::move(second)});
+  const AssemblySurfaces surfaces(assembly, {kTolerance, {}});
+  const SolidShape shapes[] = {SolidShape(assembly.components[0]), SolidShape(assembly.components[1])};
+  const auto at = [&](std::uint32_t c) {
+    const ComponentId id(c);
+    return ComponentAt{&surfaces.solid(id), &surfaces.ghost(id), {}, [&shapes, c] { return &shapes[c]; }};
   };
-  for (const bool box_is_open : {false, true}) {
-    EXPECT_FALSE(none_inside_at({}, box_is_open));
-    EXPECT_FALSE(none_inside_at({0.5, -0.5, 0.5}, box_is_open));
-    EXPECT_TRUE(none_inside_at({0, 0, 5}, box_is_open));
-    EXPECT_TRUE(none_inside_at({-2.5, 2.5, 0}, box_is_open));
+  EXPECT_EQ(none_inside(at(0), at(1), distance), none_inside(at(1), at(0), distance));
+  return none_inside(at(0), at(1), distance);
+}
+
+TEST(NoneInside, LooksAtEachShellAndAtEveryVertexWhereTheOtherOneIsOpen) {
+  const TriangleMesh box = scenes::box({-2, -2, -2}, {2, 2, 2});
+  // Two discs as one component, of which the second may be within a box, in its wall, or outside.
+  const auto none_inside_at = [](Vec3 at, const TriangleMesh& second) {
+    TriangleMesh discs = scenes::tube(0.2, 0, -30, -29, 12);
+    discs = scenes::joined(std::move(discs), scenes::moved(scenes::tube(0.2, 0, -0.2, 0.2, 12), {at, {}}));
+    EXPECT_EQ(SolidShape(scenes::component("discs", discs)).shell_points().size(), 2u);
+    return none_inside_of(std::move(discs), scenes::component("box", second), 0);
+  };
+  for (const TriangleMesh& second : {box, scenes::without_face(box, 11), scenes::with_t_junction(box, 3)}) {
+    EXPECT_FALSE(none_inside_at({}, second));
+    EXPECT_FALSE(none_inside_at({0.5, -0.5, 0.5}, second));
+    EXPECT_TRUE(none_inside_at({0, 0, 5}, second));
+    EXPECT_TRUE(none_inside_at({-2.5, 2.5, 0}, second));
+  }
+}
+
+TEST(NoneInside, FindsWhatReachesInThroughAHole) {
+  const TriangleMesh box = scenes::box({-2, -2, -2}, {2, 2, 2});
+  for (std::size_t face = 0; face < box.faces.size(); ++face) {
+    const Component open = scenes::component("box", scenes::without_face(box, face));
+    const Face& f = box.faces[face];
+    const Vec3 center = (box.vertices[f.v[0]] + box.vertices[f.v[1]] + box.vertices[f.v[2]]) / 3;
+    const Vec3 out = normalized(cross(box.vertices[f.v[1]] - box.vertices[f.v[0]], box.vertices[f.v[2]] - center));
+    const auto rod = [&](double from, double to) {
+      Aabb bounds;
+      for (const double along : {from, to}) bounds.extend(center + along * out);
+      return scenes::box(bounds.lower - Vec3{0.1, 0.1, 0.1}, bounds.upper + Vec3{0.1, 0.1, 0.1});
+    };
+    EXPECT_FALSE(none_inside_of(rod(-1.5, 5), open, 0.1)) << face;
+    EXPECT_TRUE(none_inside_of(rod(1, 5), open, 0.1)) << face;
   }
 }
 

@@ -13,12 +13,10 @@
 #include "dismantle/planner/search/curved_steps.h"
 #include "dismantle/planner/search/direction_choice.h"
 #include "dismantle/planner/search/fixed_components.h"
-#include "dismantle/planner/search/free_component_search.h"
 #include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/planner/search/removal_search.h"
+#include "dismantle/planner/search/single_removals.h"
 #include "dismantle/planner/step_margin.h"
-#include "dismantle/planner/step_preference.h"
-#include "dismantle/surface/equal_shapes.h"
 
 #include <algorithm>
 #include <mutex>
@@ -59,13 +57,13 @@ class Planner {
         features_(shape_features(assembly, options.engine.executor)),
         joints_(joints_of(assembly, options)),
         relations_(joints_, groups_, count_),
-        early_(count_),
         validator_(assembly, pairs, engine_options(), groups_, kFarAway * diagonal(assembled_bounds(assembly)),
                    [this] { return keep_going(); }),
         table_(validator_.engine(), features_, groups_, [this] { return time_.is_left(); }),
         choice_(planned(pairs), table_, validator_.engine(), without_directions(), options.engine.executor,
                 [this] { return keep_going(); }),
         joint_steps_(relations_, table_, choice_, groups_),
+        single_({assembly, features_, relations_, table_, choice_, joint_steps_, options, time_left_}),
         curved_(planned(pairs), {groups_, features_, validator_, table_, choice_, keep_going_}, options.slide_effort,
                 options.sample_effort),
         margins_(assembly, pairs, validator_),
@@ -79,7 +77,6 @@ class Planner {
           table_.let_pass_along(pair.a, pair.b, part.axis);
     for (std::uint32_t c = 0; c < count_; ++c) {
       if (!relations_.is_fastener(ComponentId(c))) continue;
-      early_.insert(ComponentId(c));
       for (const Vec3& exit : relations_.exits_of(ComponentId(c))) choice_.put_first(ComponentId(c), exit);
     }
   }
@@ -195,19 +192,9 @@ class Planner {
     return needed ? needed : fewest_removals(table_, choice_.directions(), body, never, targets, keep_going_);
   }
 
-  /// Searches for single components in one body.
-  struct Searches {
-    FreeComponentSearch by_joints, by_collisions;
-    void remove(const std::vector<ComponentId>& components) {
-      by_joints.remove(components);
-      by_collisions.remove(components);
-    }
-  };
-
   /// Removes what it can from `body` except `staying`. @return the rest
   ComponentSet take_away(ComponentSet body, const ComponentSet& staying, std::uint32_t part_of, Effort effort) {
-    Searches searches{FreeComponentSearch(table_, choice_.directions(), body, staying, early_),
-                      FreeComponentSearch(table_, choice_.directions(), body, staying)};
+    BodySearches searches = single_.searches_in(body, staying);
     while (body.size() > staying.size() && keep_going()) {
       validator_.stand(body);
       std::optional<PlanStep> step = next_step(body, staying, effort, searches);
@@ -243,65 +230,40 @@ class Planner {
   }
 
   std::optional<PlanStep> next_step(const ComponentSet& body, const ComponentSet& staying, Effort effort,
-                                    Searches& searches) {
+                                    BodySearches& searches) {
     if (!relations_.empty()) {
       table_.follow(&relations_);
-      auto step = simple_step(body, staying, searches.by_joints, &relations_);
+      auto step = simple_step(body, staying, searches, &relations_);
       table_.follow(nullptr);
       if (step) return step;
     }
-    if (auto step = simple_step(body, staying, searches.by_collisions, nullptr)) return step;
+    if (auto step = simple_step(body, staying, searches, nullptr)) return step;
     if (effort == Effort::Simple) return std::nullopt;
     if (auto step = curved_.find_sliding(body, staying)) return step;
     return curved_.find_sampled(body, staying);
   }
 
   /// A step straight or along a thread. @param joints those that the step respects; may be null
-  std::optional<PlanStep> simple_step(const ComponentSet& body, const ComponentSet& staying,
-                                      FreeComponentSearch& search, const JointRelations* joints) {
-    for (bool any = true; any && keep_going();) {
-      const std::vector<StraightRemoval> single = single_removals(body, staying, search, joints);
-      for (const StraightRemoval& removal : single)
-        if (auto step =
-                try_removal(joints != nullptr ? joint_steps_.with_washers(removal, body, staying) : removal, body))
-          return step;
-      any = !single.empty();
-    }
+  std::optional<PlanStep> simple_step(const ComponentSet& body, const ComponentSet& staying, BodySearches& searches,
+                                      const JointRelations* joints) {
+    const auto single_step = [&](SingleRemovals::Among among) -> std::optional<PlanStep> {
+      for (bool any = true; any && keep_going();) {
+        const SingleRemovals::Before before{plan_.steps.empty() ? nullptr : &plan_.steps.back(), last_direction_};
+        const std::vector<StraightRemoval> single = single_.find(body, staying, searches, joints, among, before);
+        for (const StraightRemoval& removal : single)
+          if (auto step =
+                  try_removal(joints != nullptr ? joint_steps_.with_washers(removal, body, staying) : removal, body))
+            return step;
+        any = !single.empty();
+      }
+      return std::nullopt;
+    };
+    if (auto step = single_step(SingleRemovals::Among::Reachable)) return step;
     if (auto step = curved_.find_screwed(body, staying, CurvedSteps::Groups::Single, joints)) return step;
+    if (auto step = single_step(SingleRemovals::Among::All)) return step;
     while (const auto removal = smallest_body(table_, choice_.directions(), body, staying, keep_going_))
       if (auto step = try_removal(*removal, body)) return step;
     return curved_.find_screwed(body, staying, CurvedSteps::Groups::OfSeveral, joints);
-  }
-
-  const std::vector<ComponentId>& kinds() {
-    if (kinds_.empty()) kinds_ = first_of_shape(assembly_);
-    return kinds_;
-  }
-
-  /// Single components that can be removed straight, in the order in which to try them.
-  std::vector<StraightRemoval> single_removals(const ComponentSet& body, const ComponentSet& staying,
-                                               FreeComponentSearch& search, const JointRelations* joints) {
-    const bool by_preferences = !options_.preferences.empty();
-    if (joints != nullptr && !plan_.steps.empty()) {
-      const PlanStep& last = plan_.steps.back();
-      const auto next = by_preferences ? joints->rest_of_stack(last, body) : joints->next_after(last, kinds(), body);
-      if (const auto first = joint_steps_.first_free(next, last_direction_, body, staying)) return {*first};
-    }
-    if (by_preferences) {
-      StepBefore before;
-      if (!plan_.steps.empty()) before = {plan_.steps.back().components.front(), plan_.steps.back().exit};
-      return preferred_removals({table_, choice_.directions(), kinds(), options_.preferences, early_}, body, staying,
-                                before);
-    }
-    std::vector<StraightRemoval> single = search.find(options_.engine.executor, [this] { return time_.is_left(); });
-    std::stable_sort(single.begin(), single.end(), [this](const StraightRemoval& a, const StraightRemoval& b) {
-      const bool a_is_early = early_.has(a.components[0]), b_is_early = early_.has(b.components[0]);
-      if (a_is_early != b_is_early) return a_is_early;
-      const bool a_goes_on = a.direction == last_direction_, b_goes_on = b.direction == last_direction_;
-      if (a_goes_on != b_goes_on) return a_goes_on;
-      return features_[a.components[0].value].radius < features_[b.components[0].value].radius;
-    });
-    return single;
   }
 
   /// Validates a removal with the engine, and records the blockers if it fails.
@@ -357,19 +319,19 @@ class Planner {
   std::vector<ComponentId> targets_, fixed_;  // with their groups
   std::vector<ShapeFeatures> features_;
   const KeepGoing keep_going_ = [this] { return keep_going(); };
+  const KeepGoing time_left_ = [this] { return time_.is_left(); };
   const std::vector<Joint> joints_;
   JointRelations relations_;
-  ComponentSet early_;  // fasteners of joints
   MotionValidator validator_;
   BlockingTable table_;
   DirectionChoice choice_;
   JointSteps joint_steps_;
+  SingleRemovals single_;
   CurvedSteps curved_;
   StepMargins margins_;
   double size_;  // of the assembly [mm]
   OverlapSearch overlaps_;
   DirectionId last_direction_;
-  std::vector<ComponentId> kinds_;  // first_of_shape(), once it is needed
   /// Components that are taken apart in one place.
   struct Body {
     ComponentSet left, staying;

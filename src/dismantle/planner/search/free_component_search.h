@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -25,6 +26,10 @@ class FreeComponentSearch {
   void remove(Span<const ComponentId> components);
   /// The result of free_components() for what is there.
   std::vector<StraightRemoval> find(const Executor& executor, const KeepGoing& keep_going);
+  /// As above, of those that count only: the others are passed over. @param counts (component) -> bool; asked of free
+  /// ones, by the calling thread
+  std::vector<StraightRemoval> find(const Executor& executor, const KeepGoing& keep_going,
+                                    const std::function<bool(ComponentId)>& counts);
 
  private:
   /// The directions that a pass tests: those without a predicted blocker, or all.
