@@ -7,8 +7,9 @@
 // batches run at the same time, each with --threads. --record: the batches that FILE has are not run again, and those
 // that are run are added to it. --seconds: starts no batch after that time, and says what is left. --keep writes the
 // motion and path of each failure. One row an assembly, tab-separated, of all its batches; times of a step are exact to
-// 5%, the longest is exact. Exit code 1 where an audit found a violation, a component was stuck, or batches are
-// left. audits_cut: audits that took longer than --audit-seconds and do not count as passed.
+// 5%, the longest is exact: processor time with one thread a batch, so that other programs do not count; else wall
+// time. Exit code 1 where an audit found a violation, a component was stuck, or batches are left. audits_cut: audits
+// that took longer than --audit-seconds and do not count as passed.
 #include "bench/assembly_files.h"
 #include "bench/command_line.h"
 #include "bench/soak/record.h"

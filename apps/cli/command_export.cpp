@@ -99,7 +99,7 @@ Result<ExportInput> read(ExportCommand command) {
     command.common.assembly_file = beside->string();
   }
   exported.product =
-      command.instructions.product.empty() ? display_name(command.common.assembly_file) : command.instructions.product;
+      command.instructions.product.empty() ? product_name(command.common.assembly_file) : command.instructions.product;
   Result<Assembly> assembly = load(command.common);
   if (!assembly) return assembly.error();
   exported.assembly = std::move(*assembly);

@@ -49,7 +49,7 @@ Result<InstructionsRequest> instructions_request(const Json& command, const Mode
   content.engine = engine_beside(model.session->options());
   content.engine.prepared = model.session->engine().surfaces();
   if (const Result<Done> read = read_titles(in, content); !read) return read.error();
-  if (content.product.empty()) content.product = model.name;
+  if (content.product.empty()) content.product = model.product;
   return request;
 }
 

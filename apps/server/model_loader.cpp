@@ -76,6 +76,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
   const auto assembly = std::make_shared<const Assembly>(std::move(*ready));
   model.assembly = assembly;
   model.name = clean_name(display_name(file));
+  model.product = clean_name(product_name(file));
 
   const ClassifyOptions& classify = options.classify;
   Result<Clashes> clashes =

@@ -191,17 +191,17 @@ TEST(FurtherApart, IsTrueOutsideOfEachOtherAndFromThatDistanceOn) {
   }
 }
 
-/// none_inside() of two components whose surfaces are further apart than a distance, either way round.
-bool none_inside_of(TriangleMesh first, Component second, double distance) {
-  Assembly assembly = scenes::assembly({scenes::component("first", std::move(first)), std::move(second)});
+/// none_inside() of two components, either way round.
+bool none_inside_of(TriangleMesh first, Component second) {
+  const Assembly assembly = scenes::assembly({scenes::component("first", std::move(first)), std::move(second)});
   const AssemblySurfaces surfaces(assembly, {kTolerance, {}});
   const SolidShape shapes[] = {SolidShape(assembly.components[0]), SolidShape(assembly.components[1])};
   const auto at = [&](std::uint32_t c) {
     const ComponentId id(c);
     return ComponentAt{&surfaces.solid(id), &surfaces.ghost(id), {}, [&shapes, c] { return &shapes[c]; }};
   };
-  EXPECT_EQ(none_inside(at(0), at(1), distance), none_inside(at(1), at(0), distance));
-  return none_inside(at(0), at(1), distance);
+  EXPECT_EQ(none_inside(at(0), at(1)), none_inside(at(1), at(0)));
+  return none_inside(at(0), at(1));
 }
 
 TEST(NoneInside, LooksAtEachShellAndAtEveryVertexWhereTheOtherOneIsOpen) {
@@ -211,7 +211,7 @@ TEST(NoneInside, LooksAtEachShellAndAtEveryVertexWhereTheOtherOneIsOpen) {
     TriangleMesh discs = scenes::tube(0.2, 0, -30, -29, 12);
     discs = scenes::joined(std::move(discs), scenes::moved(scenes::tube(0.2, 0, -0.2, 0.2, 12), {at, {}}));
     EXPECT_EQ(SolidShape(scenes::component("discs", discs)).shell_points().size(), 2u);
-    return none_inside_of(std::move(discs), scenes::component("box", second), 0);
+    return none_inside_of(std::move(discs), scenes::component("box", second));
   };
   for (const TriangleMesh& second : {box, scenes::without_face(box, 11), scenes::with_t_junction(box, 3)}) {
     EXPECT_FALSE(none_inside_at({}, second));
@@ -233,8 +233,8 @@ TEST(NoneInside, FindsWhatReachesInThroughAHole) {
       for (const double along : {from, to}) bounds.extend(center + along * out);
       return scenes::box(bounds.lower - Vec3{0.1, 0.1, 0.1}, bounds.upper + Vec3{0.1, 0.1, 0.1});
     };
-    EXPECT_FALSE(none_inside_of(rod(-1.5, 5), open, 0.1)) << face;
-    EXPECT_TRUE(none_inside_of(rod(1, 5), open, 0.1)) << face;
+    EXPECT_FALSE(none_inside_of(rod(-1.5, 5), open)) << face;
+    EXPECT_TRUE(none_inside_of(rod(1, 5), open)) << face;
   }
 }
 

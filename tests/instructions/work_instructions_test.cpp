@@ -157,6 +157,27 @@ TEST(WorkInstructions, CountEqualOverlapsAndNameTheProduct) {
   EXPECT_EQ(
       said(made.steps[0], InstructionNote::Kind::Overlap),
       "The CAD models of 2 \u00d7 bolt and lid overlap by 0.05 mm: press fit, thread, or an error of the model.\n");
+  pairs.pairs[2].depth = 0.06;
+  EXPECT_EQ(
+      said(written(scenes::bolted_lid(), pairs, scenes::bolted_lid_path()).steps[0], InstructionNote::Kind::Overlap),
+      "The CAD models of 2 \u00d7 bolt and lid overlap by up to 0.06 mm: press fit, thread, or an error of the "
+      "model.\n");
+}
+
+TEST(WorkInstructions, CountWhatIsUnsupported) {
+  // A shelf on a wall, with equal cups and a jug on it.
+  const Assembly a = scenes::assembly({scenes::component("wall", scenes::box({-10, -50, -50}, {0, 50, 50})),
+                                       scenes::component("shelf", scenes::box({0, -30, -2}, {20, 30, 0})),
+                                       scenes::component("cup", scenes::box({5, -3, 0}, {12, 3, 9})),
+                                       scenes::component("cup#2", scenes::box({5, 7, 0}, {12, 13, 9})),
+                                       scenes::component("jug", scenes::box({5, 17, 0}, {14, 25, 12}))});
+  PairStates pairs{0.01, {}};
+  for (const std::uint32_t c : {0, 2, 3, 4})
+    pairs.pairs.push_back({ComponentId(std::min(c, 1u)), ComponentId(std::max(c, 1u)), PairState::Contact, 0, 0, 0.01});
+  Path path = scenes::bolted_lid_path();
+  path.moves = {{"shelf", {"shelf"}, {{0, {}}, {1, {{100, 0, 0}, {}}}}}};
+  EXPECT_EQ(said(written(a, pairs, path).steps[0], InstructionNote::Kind::Warning),
+            "2 \u00d7 cup and jug are unsupported after this step. Support them first.\n");
 }
 
 TEST(WorkInstructions, CallABodyByItsNameInTheProductTree) {

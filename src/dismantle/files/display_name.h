@@ -10,4 +10,8 @@ namespace dismantle {
 /// "vice/parts".
 std::string display_name(const std::filesystem::path& file);
 
+/// The name of the product in a file, for titles: the file's name without extension; the name of a folder, or of its
+/// parent if it is called what folders of meshes are often called ("parts", "meshes", "stl" ...).
+std::string product_name(const std::filesystem::path& file);
+
 }  // namespace dismantle

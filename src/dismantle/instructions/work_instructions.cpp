@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace dismantle {
@@ -34,17 +35,23 @@ std::string fastener_name(const std::string& name, const std::optional<Fastener>
 
 constexpr const char* kTimes = " \u00d7 ";
 
-/// Equal overlaps between components that a step moves and others, in the assembled state.
+/// Overlaps of equal parts between components that a step moves and others, in the assembled state.
 struct CountedOverlap {
   std::size_t own_line = 0, other_line = 0;  ///< Lines of the bill of materials.
-  std::string depth;                         ///< [mm]
+  double least = 0, depth = 0;               ///< The smallest and the largest depth [mm].
   PairState state = PairState::Overlapping;
   std::vector<ComponentId> own, others;  ///< Without duplicates.
 
   bool is_like(const CountedOverlap& o) const {
-    return own_line == o.own_line && other_line == o.other_line && depth == o.depth && state == o.state;
+    return own_line == o.own_line && other_line == o.other_line && state == o.state;
   }
 };
+
+/// A text at the start of a sentence; names stay as they are.
+std::string sentence_start(std::string text) {
+  if (text.rfind("item ", 0) == 0) text[0] = 'I';
+  return text;
+}
 
 /// Writes the texts of the steps and renders their pictures.
 class Writer {
@@ -250,13 +257,20 @@ class Writer {
     note_joints(step, legs, instruction);
     const std::vector<ComponentId> falling = facts_.unsupported_after(step, ground_);
     if (falling.empty()) return;
-    std::vector<std::string> each;
-    each.reserve(falling.size());
-    for (const ComponentId c : falling) each.push_back(names_.of(c));
-    const std::string are = each.size() == 1 ? " is" : " are", them = each.size() == 1 ? "it" : "them";
-    warn(list_text(each) + are +
+    const std::string are = falling.size() == 1 ? " is" : " are", them = falling.size() == 1 ? "it" : "them";
+    warn(sentence_start(counted_list(falling)) + are +
          (is_forward_ ? " unsupported after this step. Support " + them + " first."
                       : " unsupported before this step. Support " + them + " until the step is complete."));
+  }
+
+  /// Components in running text; those of one item together.
+  std::string counted_list(const std::vector<ComponentId>& components) const {
+    std::map<std::size_t, std::vector<ComponentId>> by_line;
+    for (const ComponentId c : components) by_line[lines_[c.value]].push_back(c);
+    std::vector<std::string> each;
+    each.reserve(by_line.size());
+    for (const auto& [line, equal] : by_line) each.push_back(counted(equal, line));
+    return list_text(each);
   }
 
   /// Warns of fasteners that still hold what moves.
@@ -303,11 +317,11 @@ class Writer {
     const std::size_t listed = overlaps.size() <= kMaxOverlaps ? overlaps.size() : kMaxOverlaps - 1;
     for (std::size_t i = 0; i < listed; ++i) {
       const CountedOverlap& o = overlaps[i];
-      const std::string names =
-          overlapping_name(o.own, o.own_line) + " and " + overlapping_name(o.others, o.other_line);
+      const std::string names = counted(o.own, o.own_line) + " and " + counted(o.others, o.other_line);
+      const std::string depth = number_text(o.depth), up_to = number_text(o.least) == depth ? "" : "up to ";
       instruction.notes.push_back(
           {Kind::Overlap, o.state == PairState::Overlapping
-                              ? "The CAD models of " + names + " overlap by " + o.depth +
+                              ? "The CAD models of " + names + " overlap by " + up_to + depth +
                                     " mm: press fit, thread, or an error of the model."
                               : "Collision between " + names + " is not checked until they are apart."});
     }
@@ -316,11 +330,12 @@ class Writer {
           {Kind::Overlap, "And " + std::to_string(overlaps.size() - listed) + " more overlaps."});
   }
 
-  std::string overlapping_name(const std::vector<ComponentId>& components, std::size_t line) const {
+  /// Components of one item in running text.
+  std::string counted(const std::vector<ComponentId>& components, std::size_t line) const {
     return components.size() == 1 ? names_.of(components[0]) : counted_name(result_, {line, components.size()});
   }
 
-  /// The overlapping pairs that a step separates; equal ones are counted.
+  /// The overlapping pairs that a step separates; those of equal parts are counted.
   std::vector<CountedOverlap> overlaps_of(const WorkStep& step) const {
     std::vector<ComponentId> set;
     for (const RemovalMove& removal : step.removals)
@@ -335,9 +350,11 @@ class Writer {
       if (is_in(set, pair.a) == is_in(set, pair.b)) continue;
       const ComponentId other = is_in(set, pair.a) ? pair.b : pair.a, own = other == pair.a ? pair.b : pair.a;
       if (!is_in(around, other)) continue;
-      const CountedOverlap one{lines_[own.value], lines_[other.value], number_text(pair.depth), pair.state, {}, {}};
+      const CountedOverlap one{lines_[own.value], lines_[other.value], pair.depth, pair.depth, pair.state, {}, {}};
       auto like = std::find_if(found.begin(), found.end(), [&](const CountedOverlap& o) { return o.is_like(one); });
       if (like == found.end()) like = found.insert(found.end(), one);
+      like->least = std::min(like->least, pair.depth);
+      like->depth = std::max(like->depth, pair.depth);
       if (!is_in(like->own, own)) like->own.push_back(own);
       if (!is_in(like->others, other)) like->others.push_back(other);
     }

@@ -150,20 +150,17 @@ bool usual_ghosts_apart(const ComponentAt& a, const ComponentAt& b, double toler
 bool further_apart(const ComponentAt& a, const ComponentAt& b, double distance) {
   const PlacedSolid first{a.solid, a.world_from_assembled}, second{b.solid, b.world_from_assembled};
   if (a.solid->tree.empty() || b.solid->tree.empty() || bounds_distance(first, second) > distance) return true;
-  return solid_distance(first, second, limit_including(distance)).distance > distance && none_inside(a, b, distance);
+  return solid_distance(first, second, limit_including(distance)).distance > distance && none_inside(a, b);
 }
 
-bool none_inside(const ComponentAt& a, const ComponentAt& b, double distance) {
+bool none_inside(const ComponentAt& a, const ComponentAt& b) {
   const PlacedSolid first{a.solid, a.world_from_assembled}, second{b.solid, b.world_from_assembled};
   if (a.solid->tree.empty() || b.solid->tree.empty() || bounds_distance(first, second) > 0) return true;
-  const auto inside = [distance](const ComponentAt& inner, const ComponentAt& outer) {
+  const auto inside = [](const ComponentAt& inner, const ComponentAt& outer) {
     const RigidTransform outer_from_inner = inverse(outer.world_from_assembled) * inner.world_from_assembled;
-    const SolidShape& shape = *outer.make_shape();
-    const WindingNumber& winding = shape.winding();
-    // A connected part that does not meet a closed surface, nor come near to its cracks, is on one side of it.
-    const double cracks = winding.fans() ? WindingNumber::kCrackWidth * diagonal(shape.surface().bounds()) : 0;
-    const bool one_side = winding.closed() && distance >= cracks;
-    const std::vector<Vec3>& points = one_side ? inner.make_shape()->shell_points() : inner.solid->vertices;
+    const WindingNumber& winding = outer.make_shape()->winding();
+    // A connected part that does not meet a closed surface is on one side of it.
+    const std::vector<Vec3>& points = winding.fans() ? inner.solid->vertices : inner.make_shape()->shell_points();
     return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return winding.inside(outer_from_inner * p); });
   };
   return !inside(a, b) && !inside(b, a);

@@ -117,9 +117,8 @@ struct ComponentAt {
 /// True if two components are further apart than `distance` [mm], and no vertex of one is inside the other.
 bool further_apart(const ComponentAt& a, const ComponentAt& b, double distance);
 
-/// True if no vertex of one of two components is inside the other. @pre their surfaces are further apart than
-/// `distance` [mm]
-bool none_inside(const ComponentAt& a, const ComponentAt& b, double distance);
+/// True if no vertex of one of two components is inside the other. @pre their surfaces do not meet
+bool none_inside(const ComponentAt& a, const ComponentAt& b);
 
 /// True if the ghost surface that each of two components has against all others does not meet the other component, so
 /// that the two can be treated like any other pair. @param tolerance [mm]

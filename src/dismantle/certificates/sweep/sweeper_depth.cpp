@@ -84,7 +84,7 @@ void CertificateSweeper::part_others() {
       const RigidTransform b = transform_from_pose(poses_[second.value]);
       const double gap = store_.spheres().gap(second, b, b, 0, first, poses_[first.value]);
       if (gap > std::max(tolerance_, pair.parting) ||
-          (!near(first, second, pair) && none_inside(placed(first), placed(second), pair.parting) &&
+          (!near(first, second, pair) && none_inside(placed(first), placed(second)) &&
            usual_ghosts_apart(first, second)))
         change_parted(first, second, true);
     }

@@ -68,11 +68,11 @@ std::vector<FacePoint> chosen_points(const TriangleMesh& mesh) {
     area_up_to.push_back(area += length(cross(b - a, c - a)));
   }
   std::vector<std::size_t> outermost;
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
+  for (const double x : {-1.0, 0.0, 1.0})
+    for (const double y : {-1.0, 0.0, 1.0})
+      for (const double z : {-1.0, 0.0, 1.0}) {
         if (x == 0 && y == 0 && z == 0) continue;
-        const Vec3 d(x, y, z);
+        const Vec3 d{x, y, z};
         const auto found = std::max_element(centers.begin(), centers.end(),
                                             [&](const Vec3& a, const Vec3& b) { return dot(a, d) < dot(b, d); });
         outermost.push_back(static_cast<std::size_t>(found - centers.begin()));
