@@ -190,6 +190,29 @@ TEST(CertificateQueries, FindsAContactNearTheFirstOneOfAPairWhoseDepthIsBounded)
   EXPECT_FALSE(engine.straight_contact(moving, fixed, {-30, 0, 0}, StraightSearch::Near)) << "it is free that way";
 }
 
+TEST(CertificateQueries, SaysWhereAQuickSearchWasGivenUp) {
+  const TriangleMesh rod = tube(1, 0, -10, 10, 12);
+  const Assembly assembly =
+      scenes::assembly({component("rod", rod),
+                        component("across", scenes::moved(rod, {{1.4, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)}))});
+  const PairStates states = states_of(assembly);
+  bool is_over = false;
+  CertificateOptions options;
+  options.keep_going = [&] { return !is_over; };
+  const CertificateEngine engine(assembly, states, options);
+  const auto quick = [&](double way) {
+    return engine.straight_contact(ComponentId(0), ComponentId(1), {way, 0, 0}, StraightSearch::Quick);
+  };
+  EXPECT_FALSE(quick(-30));
+  ASSERT_TRUE(quick(30));
+  EXPECT_TRUE(quick(30)->is_certain);
+  is_over = true;
+  ASSERT_TRUE(quick(-30));
+  EXPECT_FALSE(quick(-30)->is_certain);
+  EXPECT_TRUE(engine.straight_contact(ComponentId(0), ComponentId(1), {-30, 0, 0}, StraightSearch::Any))
+      << "what is not decided counts as a contact";
+}
+
 TEST(CertificateQueries, LetsFitsOutAlongALine) {
   for (const double interference : {0.005, 0.02, 0.04}) {
     const scenes::SlideScene scene = scenes::press_fit_pin(36, interference);

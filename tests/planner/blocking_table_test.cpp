@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/blocking_table.h"
 
+#include "dismantle/planner/search/free_component_search.h"
 #include "tests/planner/plan_scenes.h"
 
 #include <gtest/gtest.h>
@@ -124,6 +125,64 @@ TEST_F(BlockingTableTest, ExitsPastEverythingInTheWay) {
   for (const ComponentId c : {kTube, kMiddle, kHigh})
     EXPECT_GE(up_and_out, features_[c.value].center.z + features_[c.value].radius - features_[kLow.value].center.z);
   EXPECT_LE(up_and_out, table_.max_exit_distance(kLow));
+}
+
+/// Two rods that cross, whose depth has to be bounded, and an engine that is given up as long as `is_over`.
+class PostponedRelations : public testing::Test {
+ protected:
+  static Assembly rods() {
+    const TriangleMesh rod = scenes::tube(1, 0, -10, 10, 12);
+    return scenes::assembly(
+        {scenes::component("rod", rod),
+         scenes::component("across", scenes::moved(rod, {{1.4, 0, 0}, quat_about({1, 0, 0}, kTurn / 4)}))});
+  }
+
+  bool is_over_ = false;
+  scenes::PlanScene scene_ = scenes::plan_scene(rods());
+  CertificateEngine engine_{scene_.assembly, scene_.pairs, [this] {
+                              CertificateOptions options;
+                              options.keep_going = [this] { return !is_over_; };
+                              return options;
+                            }()};
+  std::vector<ShapeFeatures> features_ = shape_features(scene_.assembly, Executor{});
+  RigidGroups groups_{2};
+  BlockingTable table_{engine_, features_, groups_, [] { return true; }};
+  ComponentId rod_{0}, across_{1};
+  ComponentSet all_ = ComponentSet::all(2);
+  DirectionId away_ = table_.add_direction({-1, 0, 0});
+};
+
+TEST_F(PostponedRelations, BlockUntilTheyAreDecided) {
+  table_.postpone_hard(true);
+  is_over_ = true;
+  EXPECT_EQ(table_.any_blocker(rod_, away_, all_), across_);
+  EXPECT_TRUE(table_.is_postponed(rod_, away_, across_));
+  is_over_ = false;
+  EXPECT_TRUE(table_.blocks(rod_, away_, across_)) << "it is not searched again";
+  table_.postpone_hard(false);
+  EXPECT_FALSE(table_.any_blocker(rod_, away_, all_));
+  EXPECT_FALSE(table_.is_postponed(rod_, away_, across_));
+}
+
+TEST_F(PostponedRelations, AreOnlyThoseThatAQuickSearchDoesNotDecide) {
+  table_.postpone_hard(true);
+  EXPECT_FALSE(table_.blocks(rod_, away_, across_));
+  EXPECT_TRUE(table_.blocks(rod_, table_.opposite(away_), across_));
+  EXPECT_FALSE(table_.is_postponed(rod_, table_.opposite(away_), across_));
+}
+
+TEST_F(PostponedRelations, AreTestedAgainBySearchesForFreeComponents) {
+  const DirectionLists directions{{away_}, {}};
+  FreeComponentSearch search(table_, directions, all_, ComponentSet(2));
+  const auto found = [&] { return search.find(Executor(), [] { return true; }).size(); };
+  table_.postpone_hard(true);
+  is_over_ = true;
+  EXPECT_EQ(found(), 0u);
+  is_over_ = false;
+  table_.postpone_hard(false);
+  EXPECT_EQ(found(), 0u);
+  search.retry_postponed();
+  EXPECT_EQ(found(), 1u);
 }
 
 }  // namespace

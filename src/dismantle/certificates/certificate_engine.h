@@ -27,7 +27,8 @@ struct Clearance {
 
 /// Which contact of a linear motion is sought.
 enum class StraightSearch {
-  Any,  ///< Any contact: decides if the motion is free.
+  Any,    ///< Any contact: decides if the motion is free.
+  Quick,  ///< The same, but given up where depths are hard to bound (StraightContact::is_certain).
   /// The first contact or one soon after it, in less time: within some tolerances, but where depths are bounded.
   Near,
   First,  ///< The first contact.
@@ -39,6 +40,8 @@ struct StraightContact {
   FaceId face_moving;   ///< Face of the moving component's mesh.
   FaceId face_fixed;    ///< Face of the fixed component's mesh.
   Vec3 point;           ///< Where the two faces meet [mm, world].
+  /// False where the search was given up: the motion may be free.
+  bool is_certain = true;
 };
 
 /// The trees, ghost surfaces and allowances that engines prepare for an assembly.

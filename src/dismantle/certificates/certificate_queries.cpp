@@ -111,8 +111,8 @@ namespace {
 constexpr double kShorter = 0.05;
 /// With StraightSearch::Near, a contact before this many tolerances counts as one at the start.
 constexpr double kNear = 4;
-/// Where the contact itself is sought, and not only whether there is one, the search gives up bounding a depth after
-/// this many pieces, which take about a second.
+/// Where the contact itself is sought, and not only whether there is one, or the search is to be quick, it gives up
+/// bounding a depth after this many pieces, which take about a second.
 constexpr std::size_t kMaxPieces = 100000;
 
 /// Where two components meet: the faces of a contact, or, where it is not known to be one, those nearest to each other.
@@ -124,7 +124,7 @@ StraightContact meeting(const CertificateSweeper& sweeper, const LinearMotion& m
   if (!is_known) {
     const SolidDistance nearest = solid_distance({&moving, transform_from_pose(pose)},
                                                  {&fixed, transform_from_pose(motion.pose_fixed)}, kInfinite);
-    return {length(moved), nearest.face_a, nearest.face_b, nearest.point_b};
+    return {length(moved), nearest.face_a, nearest.face_b, nearest.point_b, false};
   }
   const Triangle of_moving = at(moving.triangle(contact.face_moving.value), pose);
   const Triangle of_fixed = at(fixed.triangle(contact.face_fixed.value), motion.pose_fixed);
@@ -151,7 +151,7 @@ std::optional<StraightContact> contact_between(const CertificateSweeper& sweeper
     shorter *= 2;
     contact = meeting(sweeper, motion, to, *first, !found.undecided);
     // Nothing gets too deep before the time at which depths end.
-    if (search == StraightSearch::Any || is_depth_bounded) break;
+    if (search == StraightSearch::Any || search == StraightSearch::Quick || is_depth_bounded) break;
     if (search == StraightSearch::Near && contact->distance <= kNear * sweeper.tolerance()) {
       contact->distance = 0;
       break;

@@ -172,15 +172,26 @@ bool BlockingTable::blocks(ComponentId moving, DirectionId d, ComponentId fixed)
 bool BlockingTable::blocks(Row& row, ComponentId moving, DirectionId d, ComponentId fixed) {
   Known* known = row.find(fixed);
   if (!known) return false;
-  if (*known == Known::Nothing) {
+  if (*known == Known::Nothing || (*known == Known::Hard && !postpone_)) {
     if (!keep_going_()) return true;
-    const double way = way_past(moving, d, fixed);
-    const bool met =
-        way > 0 && (!may_pass(moving, d, fixed) ||
-                    engine_.straight_contact(moving, fixed, way * direction(d), StraightSearch::Any).has_value());
-    *known = met ? Known::Blocks : Known::Free;
+    *known = decide(moving, d, fixed);
   }
-  return *known == Known::Blocks;
+  return *known != Known::Free;
+}
+
+BlockingTable::Known BlockingTable::decide(ComponentId moving, DirectionId d, ComponentId fixed) const {
+  const double way = way_past(moving, d, fixed);
+  if (way <= 0) return Known::Free;
+  if (!may_pass(moving, d, fixed)) return Known::Blocks;
+  const StraightSearch search = postpone_ ? StraightSearch::Quick : StraightSearch::Any;
+  const auto contact = engine_.straight_contact(moving, fixed, way * direction(d), search);
+  if (!contact) return Known::Free;
+  return postpone_ && !contact->is_certain ? Known::Hard : Known::Blocks;
+}
+
+bool BlockingTable::is_postponed(ComponentId moving, DirectionId d, ComponentId fixed) {
+  const Known* known = row(moving, d).find(fixed);
+  return known && *known == Known::Hard;
 }
 
 std::optional<ComponentId> BlockingTable::joint_blocker(ComponentId moving, DirectionId d,
@@ -191,8 +202,8 @@ std::optional<ComponentId> BlockingTable::joint_blocker(ComponentId moving, Dire
 std::optional<ComponentId> BlockingTable::any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present) {
   if (const auto by_joint = joint_blocker(moving, d, present)) return by_joint;
   Row& known = row(moving, d);
-  if (known.witness.valid() && present.has(known.witness)) return known.witness;
   const auto is_blocker = [&](ComponentId c) { return present.has(c) && blocks(known, moving, d, c); };
+  if (known.witness.valid() && is_blocker(known.witness)) return known.witness;
   for (const ComponentId other : known.expected)
     if (is_blocker(other)) return known.witness = other;
   for (const ComponentId other : last_blockers_[moving.value])

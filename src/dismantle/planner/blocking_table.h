@@ -69,6 +69,10 @@ class BlockingTable {
   /// expanded again.
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
                                            ComponentSet& ends, std::size_t most);
+  /// While postponed, relations that are hard to decide, where depths have to be bounded, count as blocking.
+  void postpone_hard(bool postpone) { postpone_ = postpone; }
+  /// True if `fixed` counts as blocking because that is postponed.
+  bool is_postponed(ComponentId moving, DirectionId d, ComponentId fixed);
   /// Predicts the components that probably block a component along a unit direction; they are tested first.
   using Expectation = std::function<std::vector<ComponentId>(ComponentId moving, const Vec3& direction)>;
   /// Sets the prediction. @pre no relation was computed yet
@@ -89,7 +93,12 @@ class BlockingTable {
   std::optional<StraightContact> contact(ComponentId moving, DirectionId d, ComponentId fixed) const;
 
  private:
-  enum class Known : std::uint8_t { Nothing, Free, Blocks };
+  enum class Known : std::uint8_t {
+    Nothing,
+    Hard,  // not decided by a quick search
+    Free,
+    Blocks,
+  };
   /// The relations of a component along a direction. Components that are not in it do not block.
   struct Row {
     std::vector<ComponentId> near;       ///< Ascending.
@@ -104,6 +113,7 @@ class BlockingTable {
   Row& row(ComponentId moving, DirectionId d);
   Row new_row(ComponentId moving, DirectionId d) const;
   bool blocks(Row& row, ComponentId moving, DirectionId d, ComponentId fixed);
+  Known decide(ComponentId moving, DirectionId d, ComponentId fixed) const;
   /// One of `present` that blocks and is not in `together_`: the expected ones are asked first, then those of `ends`.
   std::optional<ComponentId> another_blocker(ComponentId moving, DirectionId d, const ComponentSet& present,
                                              const ComponentSet& ends);
@@ -126,6 +136,7 @@ class BlockingTable {
   const RigidGroups& groups_;
   KeepGoing keep_going_;
   const JointRelations* joints_ = nullptr;
+  bool postpone_ = false;
   Expectation expectation_;
   std::vector<Vec3> directions_;
   std::map<std::array<std::int64_t, 3>, std::vector<DirectionId>> cells_;  // of directions, for those that are equal

@@ -258,8 +258,13 @@ class Planner {
       }
       return std::nullopt;
     };
-    if (auto step = single_step(SingleRemovals::Among::Reachable)) return step;
-    if (auto step = curved_.find_screwed(body, staying, CurvedSteps::Groups::Single, joints)) return step;
+    table_.postpone_hard(true);
+    std::optional<PlanStep> easy = single_step(SingleRemovals::Among::Reachable);
+    if (!easy) easy = curved_.find_screwed(body, staying, CurvedSteps::Groups::Single, joints);
+    if (!easy) easy = single_step(SingleRemovals::Among::All);
+    table_.postpone_hard(false);
+    if (easy) return easy;
+    searches.retry_postponed();
     if (auto step = single_step(SingleRemovals::Among::All)) return step;
     while (const auto removal = smallest_body(table_, choice_.directions(), body, staying, keep_going_))
       if (auto step = try_removal(*removal, body)) return step;

@@ -58,6 +58,7 @@ void FreeComponentSearch::remove(Span<const ComponentId> components) {
     if (const std::uint32_t place = place_[c.value]; place != kNowhere) {
       count_down(place);
       for (std::set<std::uint32_t>& waiting : waiting_) waiting.erase(place);
+      postponed_.erase(place);
     }
   }
   for (const ComponentId c : components) {
@@ -66,6 +67,11 @@ void FreeComponentSearch::remove(Span<const ComponentId> components) {
         for (std::set<std::uint32_t>& waiting : waiting_) waiting.insert(place_[other.value]);
     blocked_by_[c.value] = {};
   }
+}
+
+void FreeComponentSearch::retry_postponed() {
+  for (std::set<std::uint32_t>& waiting : waiting_) waiting.insert(postponed_.begin(), postponed_.end());
+  postponed_.clear();
 }
 
 FreeComponentSearch::Found FreeComponentSearch::test(ComponentId c, Pass pass, const KeepGoing& keep_going) const {
@@ -83,6 +89,7 @@ FreeComponentSearch::Found FreeComponentSearch::test(ComponentId c, Pass pass, c
       break;
     }
     found.blockers.push_back(*blocker);
+    found.postponed |= table_.is_postponed(c, d, *blocker);
   }
   return found;
 }
@@ -100,6 +107,7 @@ std::vector<StraightRemoval> FreeComponentSearch::test_batch(Span<const std::uin
       waiting(Pass::Unpredicted).insert(places[i]);
     } else if (tested[i].finished) {
       waiting(pass).erase(places[i]);
+      if (tested[i].postponed) postponed_.insert(places[i]);
       for (const ComponentId blocker : tested[i].blockers) blocked_by_[blocker.value].push_back(c);
     }
   }

@@ -22,6 +22,8 @@ class FreeComponentSearch {
   FreeComponentSearch(BlockingTable& table, const DirectionLists& directions, const ComponentSet& present,
                       const ComponentSet& never, const ComponentSet& early);
 
+  /// Tests those again that were blocked by a relation that was postponed (BlockingTable::postpone_hard).
+  void retry_postponed();
   /// Notes that components are not there any more.
   void remove(Span<const ComponentId> components);
   /// The result of free_components() for what is there.
@@ -38,7 +40,8 @@ class FreeComponentSearch {
   struct Found {
     DirectionId free;
     std::vector<ComponentId> blockers;
-    bool finished = true;  ///< False if the search was ended.
+    bool postponed = false;  ///< One of the blockers counts as one because that is postponed.
+    bool finished = true;    ///< False if the search was ended.
   };
   Found test(ComponentId c, Pass pass, const KeepGoing& keep_going) const;
   /// Tests those of a batch that wait.
@@ -56,6 +59,7 @@ class FreeComponentSearch {
   std::vector<std::uint32_t> place_;                  ///< Of each component in `order_`; kNowhere for those that stay.
   std::vector<std::uint32_t> counts_;                 ///< Fenwick tree over `order_` of those that are there.
   std::array<std::set<std::uint32_t>, 2> waiting_;    ///< By pass: places of those that are not known to be blocked.
+  std::set<std::uint32_t> postponed_;                 ///< Places of those with postponed blockers.
   std::vector<std::vector<ComponentId>> blocked_by_;  ///< By blocker: those to test again without it.
 };
 

@@ -26,6 +26,11 @@ struct SingleRemovalSearch {
 struct BodySearches {
   FreeComponentSearch by_joints;      ///< While the table follows joints.
   FreeComponentSearch by_collisions;  ///< While it does not.
+  /// Tests those again that were blocked by relations that were postponed.
+  void retry_postponed() {
+    by_joints.retry_postponed();
+    by_collisions.retry_postponed();
+  }
   /// Notes that components are not there any more.
   void remove(Span<const ComponentId> components) {
     by_joints.remove(components);
