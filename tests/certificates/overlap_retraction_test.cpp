@@ -96,6 +96,38 @@ TEST(PairOverlap, IsTheSameWhicheverComponentIsFirst) {
   EXPECT_EQ(there.turning(), back.turning());
 }
 
+TEST(PairOverlap, LeavesTheFaceAroundABoreWhereThePointsGetOutThroughItsWall) {
+  // Vertices of the shaft are 0.1 deep in the wall of the bore, and 0.05 below the face that it opens in.
+  for (const double angle : {0.0, 0.7, 2.1}) {
+    const Pose pose{{30, -20, 10}, quat_about(normalized(Vec3{1, 2, 3}), angle)};
+    const Vec3 axis = mat3_from_quat(pose.rotation) * Vec3{0, 0, 1};
+    const Solid shaft(scenes::moved(scenes::tube(5.1, 1, -5.05, 14.95, 40, 4), pose));
+    const Solid ring(scenes::moved(scenes::tube(9, 5, 0, 10, 40, 3), pose));
+    const OverlapSide a = shaft.side(), b = ring.side();
+    PairOverlap overlap(a, b, 0.1 + 1e-6, kTolerance);
+    const OverlapRetraction& found = overlap.retraction(false);
+    for (std::uint32_t f = 0; f < ring.tree.faces.size(); ++f) {
+      const Triangle t = ring.tree.triangle(f);
+      const bool in_bore = length(cross(t[0] - pose.position, axis)) < 6 &&
+                           length(cross(t[1] - pose.position, axis)) < 6 &&
+                           length(cross(t[2] - pose.position, axis)) < 6;
+      EXPECT_GE(found.needed[f], in_bore ? 0.1 - 1e-6 : 0) << angle;
+      EXPECT_LE(found.needed[f], in_bore ? 0.12 : 0) << angle;
+    }
+  }
+}
+
+TEST(PairOverlap, RetractsAFaceThatASharpEdgeIsPressedInto) {
+  const Solid block(scenes::box({0, 0, 0}, {10, 10, 5}));
+  const Solid blade(scenes::moved(scenes::extruded({{0, 0}, {0.3, 6}, {-0.3, 6}}, -4, 4),
+                                  {{5, 5, 4.8}, quat_about({1, 0, 0}, kTurn / 4)}));
+  const OverlapSide a = block.side(), b = blade.side();
+  PairOverlap overlap(a, b, 0.2 + 1e-6, kTolerance);
+  const OverlapRetraction& found = overlap.retraction(true);
+  for (std::uint32_t f = 0; f < block.tree.faces.size(); ++f)
+    EXPECT_NEAR(found.needed[f], normalized(normal_unscaled(block.tree.triangle(f))).z > 0.5 ? 0.2 : 0, 1e-9);
+}
+
 TEST(TurningRetraction, IsWhatCornersNeedToPassTheMiddlesOfFacets) {
   // Equal prisms: corners of the shaft are beyond the middles of the bore's facets by the sagitta.
   for (const std::uint32_t sides : {12u, 36u, 200u}) {

@@ -16,15 +16,29 @@ namespace {
 constexpr double kNoticeable = 0.1;
 /// A face is retracted for a point whose nearest way out is no further than 45 degrees from it.
 constexpr double kAlong = 0.7;
+/// Two faces press on each other where the cosine between one's normal and the opposite of the other's is at least
+/// this.
+constexpr double kFacing = 0.5;
+
+std::vector<Vec3> outward_normals(const SolidTree& tree) {
+  std::vector<Vec3> normals;
+  normals.reserve(tree.faces.size());
+  for (std::uint32_t f = 0; f < tree.faces.size(); ++f)
+    normals.push_back((tree.inside_out ? -1.0 : 1.0) * normalized(normal_unscaled(tree.triangle(f))));
+  return normals;
+}
 
 /// The retraction of one component's faces.
 class Retraction {
  public:
   Retraction(const OverlapSide& own, const OverlapSide& other, const SurfaceEdges& edges, double depth,
              double tolerance)
-      : own_(*own.tree), solids_{&own, &other}, depth_(depth), tolerance_(tolerance), needed_(own.tree->faces.size()) {
-    for (std::uint32_t f = 0; f < needed_.size(); ++f)
-      normals_.push_back((own_.inside_out ? -1.0 : 1.0) * normalized(normal_unscaled(own_.triangle(f))));
+      : solids_{&own, &other},
+        depth_(depth),
+        tolerance_(tolerance),
+        needed_(own.tree->faces.size()),
+        normals_(outward_normals(*own.tree)),
+        normals_of_other_(outward_normals(*other.tree)) {
     find_patches(edges);
   }
 
@@ -43,8 +57,9 @@ class Retraction {
   }
 
   OverlapRetraction result(const TurningRetraction& turning) {
-    for (std::uint32_t f = 0; f < needed_.size(); ++f)
-      needed_[root(f)] = std::max({needed_[root(f)], needed_[f], turning.needed[f]});
+    for (std::uint32_t f = 0; f < needed_.size(); ++f) add_need(f, std::max(needed_[f], turning.needed[f]));
+    for (const Unopposed& point : unopposed_)
+      if (!gets_out(point)) add_need(point.face, point.needed);
     for (std::uint32_t f = 0; f < needed_.size(); ++f) needed_[f] = needed_[root(f)];
     for (std::uint32_t f = 0; f < patch_.size(); ++f) patch_[f] = root(f);
     return {std::move(needed_), std::move(patch_), turning.largest};
@@ -59,8 +74,33 @@ class Retraction {
     const std::uint32_t retracted = of_own ? face : nearest.face;
     const double along = (of_own ? -1 : 1) * dot(normals_[retracted], out);
     if (along < kAlong) return;
-    double& needed = needed_[root(retracted)];
-    needed = std::max(needed, nearest.distance / along);
+    const double needed = nearest.distance / along;
+    if (of_own || -dot(normals_of_other_[face], normals_[retracted]) >= kFacing) {
+      add_need(retracted, needed);
+    } else {
+      unopposed_.push_back({point, retracted, needed});
+    }
+  }
+
+  void add_need(std::uint32_t face, double needed) { needed_[root(face)] = std::max(needed_[root(face)], needed); }
+
+  /// A point of the other component whose nearest way out of this one is through a face that its own face does not
+  /// press on: next to the rim of a bore, the face around it may be nearer than the wall.
+  struct Unopposed {
+    Vec3 point;          // [mm, assembled]
+    std::uint32_t face;  // of this component
+    double needed;       // its retraction [mm]
+  };
+
+  /// True if a point gets out through a face that is retracted for others.
+  bool gets_out(const Unopposed& point) {
+    Aabb around;
+    around.extend(point.point);
+    const SurfaceTree& surface = solids_[0]->shape().surface();
+    return !surface.for_each_in_box(inflated(around, depth_), [&](std::uint32_t face) {
+      const Vec3 way = closest_point_of_triangle(surface.triangle(face), point.point) - point.point;
+      return dot(way, normals_[face]) < kAlong * length(way) || length(way) > needed_[root(face)];
+    });
   }
 
   std::uint32_t root(std::uint32_t face) {
@@ -81,11 +121,11 @@ class Retraction {
       }
   }
 
-  const SolidTree& own_;
   const OverlapSide* solids_[2];
   double depth_, tolerance_;
   std::vector<double> needed_;
-  std::vector<Vec3> normals_;
+  std::vector<Vec3> normals_, normals_of_other_;
+  std::vector<Unopposed> unopposed_;
   std::vector<std::uint32_t> patch_;  // a face of the same patch, or itself
 };
 
