@@ -319,11 +319,13 @@ class Writer {
       const CountedOverlap& o = overlaps[i];
       const std::string names = counted(o.own, o.own_line) + " and " + counted(o.others, o.other_line);
       const std::string depth = number_text(o.depth), up_to = number_text(o.least) == depth ? "" : "up to ";
-      instruction.notes.push_back(
-          {Kind::Overlap, o.state == PairState::Overlapping
-                              ? "The CAD models of " + names + " overlap by " + up_to + depth +
-                                    " mm: press fit, thread, or an error of the model."
-                              : "Collision between " + names + " is not checked until they are apart."});
+      std::string text = "Collision between " + names + " is not checked until they are apart.";
+      if (o.state == PairState::Overlapping) {
+        text = "The CAD models of " + names + " overlap by ";
+        text += up_to;
+        text += depth + " mm: press fit, thread, or an error of the model.";
+      }
+      instruction.notes.push_back({Kind::Overlap, text});
     }
     if (listed < overlaps.size())
       instruction.notes.push_back(

@@ -19,8 +19,9 @@ constexpr int kRounds = 20;
 constexpr int kStalledRounds = 5;
 /// Faces count as apart at this share of the gap that is aimed at.
 constexpr double kEnough = 0.5;
-/// Faces count as touching up to this share of the gap.
-constexpr double kTouching = 1e-6;
+/// Faces count as touching up to this share of the gap, and axes as equally good: files round by as much as a hundredth
+/// of it (coordinates in single precision).
+constexpr double kTouching = 0.03;
 
 class Displacing {
  public:
@@ -69,7 +70,8 @@ class Displacing {
   }
 
   /// The axis from `own` to `other` along which two faces are to be kept apart: one that separates them as they are, or
-  /// else the one along which they are furthest apart on the side that their normals tell.
+  /// else the one along which they are furthest apart on the side that their normals tell. Of axes that are equally
+  /// good that is a normal: where faces touch at an edge or a corner, rounding would choose any.
   Vec3 axis_of(std::uint32_t face_own, const Triangle& own, const Triangle& other) const {
     const Triangle plain = request_.own->triangle(face_own);
     const Vec3 separating = furthest_axis(plain, other, {});
@@ -78,7 +80,13 @@ class Displacing {
     const bool neither = !request_.own->has_outside && !request_.other->has_outside;
     if (request_.own->has_outside || (neither && request_.own_is_oriented)) normals.a = normal_unscaled(plain);
     if (request_.other->has_outside || (neither && !request_.own_is_oriented)) normals.b = normal_unscaled(other);
-    return furthest_axis(own, other, normals);
+    const Vec3 furthest = furthest_axis(own, other, normals);
+    const double enough = gap_along(furthest, own, other) - kTouching * request_.gap;
+    for (const Vec3& along : {normals.a, -normals.b})
+      if (const Vec3 axis = normalized(along);
+          length_squared(axis) > 0 && normals.allow(axis) && gap_along(axis, own, other) >= enough)
+        return axis;
+    return furthest;
   }
 
   static Vec3 furthest_axis(const Triangle& own, const Triangle& other, const detail::OutwardNormals& normals) {
