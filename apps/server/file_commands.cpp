@@ -152,7 +152,7 @@ Result<std::uint32_t> FileCommands::start(std::shared_ptr<const OpenedFile> file
                        Result<Model> model = load_model(file->path, options, progress);
                        if (!model) return Error{model.error().kind, without_folder(model.error().message, file->path)};
                        model->name = clean_name(file->name);
-                       model->product = clean_name(product_name(file->folder ? fs::path(file->name) : file->path));
+                       if (file->folder) model->product = clean_name(product_name(file->name));
                        if (!file->folder) recent_.add(file->path);
                        // std::function requires copyable captures.
                        return Jobs::Outcome{[this, file, shared = std::make_shared<Model>(std::move(*model))] {

@@ -40,7 +40,7 @@ struct StraightContact {
   FaceId face_moving;   ///< Face of the moving component's mesh.
   FaceId face_fixed;    ///< Face of the fixed component's mesh.
   Vec3 point;           ///< Where the two faces meet [mm, world].
-  /// False where the search was given up: the motion may be free.
+  /// False where a search but Any was given up: the motion may be free.
   bool is_certain = true;
 };
 

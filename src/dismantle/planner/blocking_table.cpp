@@ -21,13 +21,6 @@ constexpr double kRounding = 1e-9;
 /// Number of blockers of a component that are tried first in other directions: a few probably block those, too.
 constexpr std::size_t kMaxLastBlockers = 16;
 
-std::vector<BoundingSphere> spheres_of(Span<const ShapeFeatures> features) {
-  std::vector<BoundingSphere> spheres;
-  spheres.reserve(features.size());
-  for (const ShapeFeatures& f : features) spheres.push_back({f.center, f.radius});
-  return spheres;
-}
-
 std::array<std::int64_t, 3> cell_of(const Vec3& unit) {
   const auto index = [](double x) { return static_cast<std::int64_t>(std::floor(x / kSameDirection)); };
   return {index(unit.x), index(unit.y), index(unit.z)};
@@ -41,7 +34,7 @@ BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFe
       features_(features),
       groups_(groups),
       keep_going_(std::move(keep_going)),
-      spheres_(spheres_of(features)),
+      spheres_(sphere_tree(features)),
       rows_(features.size()),
       last_blockers_(features.size()),
       together_(features.size()),

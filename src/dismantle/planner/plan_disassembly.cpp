@@ -59,7 +59,7 @@ class Planner {
         relations_(joints_, groups_, count_),
         validator_(assembly, pairs, engine_options(), groups_, kFarAway * diagonal(assembled_bounds(assembly)),
                    [this] { return keep_going(); }),
-        table_(validator_.engine(), features_, groups_, [this] { return time_.is_left(); }),
+        table_(validator_.engine(), features_, groups_, time_left_),
         choice_(planned(pairs), table_, validator_.engine(), without_directions(), options.engine.executor,
                 [this] { return keep_going(); }),
         joint_steps_(relations_, table_, choice_, groups_),

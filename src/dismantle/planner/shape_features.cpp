@@ -46,4 +46,11 @@ std::vector<ShapeFeatures> shape_features(const Assembly& assembly, const Execut
   return features;
 }
 
+SphereTree sphere_tree(Span<const ShapeFeatures> features) {
+  std::vector<BoundingSphere> spheres;
+  spheres.reserve(features.size());
+  for (const ShapeFeatures& f : features) spheres.push_back({f.center, f.radius});
+  return SphereTree(spheres);
+}
+
 }  // namespace dismantle

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
+#include "dismantle/bvh/sphere_tree.h"
+#include "dismantle/core/span.h"
 #include "dismantle/exec/executor.h"
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/geometry/triangle_mesh.h"
@@ -27,5 +29,8 @@ struct ShapeFeatures {
 ShapeFeatures shape_features(const TriangleMesh& mesh);
 /// The features of all assembled components of an assembly.
 std::vector<ShapeFeatures> shape_features(const Assembly& assembly, const Executor& executor);
+
+/// The tree of the bounding spheres of all components; each is known by its index.
+SphereTree sphere_tree(Span<const ShapeFeatures> features);
 
 }  // namespace dismantle

@@ -41,13 +41,6 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-std::vector<BoundingSphere> spheres_of(Span<const ShapeFeatures> features) {
-  std::vector<BoundingSphere> spheres;
-  spheres.reserve(features.size());
-  for (const ShapeFeatures& f : features) spheres.push_back({f.center, f.radius});
-  return spheres;
-}
-
 /// A point of a face: its corners weighted.
 struct FacePoint {
   std::size_t face;
@@ -98,7 +91,7 @@ std::vector<FacePoint> chosen_points(const TriangleMesh& mesh) {
 }  // namespace
 
 Exposure::Exposure(const Assembly& assembly, Span<const ShapeFeatures> features)
-    : assembly_(assembly), spheres_(spheres_of(features)), tested_(assembly.components.size()) {}
+    : assembly_(assembly), spheres_(sphere_tree(features)), tested_(assembly.components.size()) {}
 
 std::vector<Exposure::Sample> Exposure::samples_of(ComponentId c) const {
   const Component& component = assembly_[c];

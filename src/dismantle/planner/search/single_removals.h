@@ -54,9 +54,9 @@ class SingleRemovals {
   /// Searches in a body, from the beginning.
   BodySearches searches_in(const ComponentSet& body, const ComponentSet& staying) const;
 
-  /// What was removed last.
+  /// The steps before the one that is sought.
   struct Before {
-    const PlanStep* step = nullptr;  ///< The step; null for none.
+    const PlanStep* step = nullptr;  ///< The previous step; null for none.
     DirectionId direction;           ///< Of the last straight step; invalid for none.
   };
   /// Components that can be removed from `body`, in the order in which to try them; empty only if there is none, or the
