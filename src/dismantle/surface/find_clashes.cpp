@@ -19,6 +19,9 @@ namespace {
 
 /// The largest difference of the bounds of a depth, as a part of the tolerance.
 constexpr double kGapOfTolerance = 0.1;
+/// Distances below this part of the tolerance are not found out to the last digit: where faces lie on each other up to
+/// rounding, all of their triangles are about as near.
+constexpr double kTouching = 0.01;
 
 /// The shapes of components, each of which is there from the first of its pairs to the last.
 class PairShapes {
@@ -108,7 +111,7 @@ class PairCheck {
  private:
   std::optional<Clash> apart(Clash clash) const {
     const double limit = std::max(clearance_, 2 * tolerance_);
-    const SurfaceDistance nearest = nearest_of_surface(surface_, clash.a, clash.b, limit);
+    const SurfaceDistance nearest = nearest_of_surface(surface_, clash.a, clash.b, limit, kTouching * tolerance_);
     clash.distance = nearest.distance;
     if (clash.distance > tolerance_ && clash.distance >= clearance_) return std::nullopt;
     clash.state = clash.distance <= tolerance_ ? ClashState::Contact : ClashState::Near;

@@ -27,16 +27,18 @@ double box_distance_squared(const Kdop16& k, Vec3 p) {
   return sum;
 }
 
-/// Squared distance of two nodes' boxes: never above the true one.
-double box_distance_squared(const Kdop16& a, const Kdop16& b) {
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double below = static_cast<double>(a.lower[i]) - static_cast<double>(b.upper[i]);
-    const double above = static_cast<double>(b.lower[i]) - static_cast<double>(a.upper[i]);
-    const double d = std::max({below, above, 0.0});
-    sum += d * d;
+/// Squared distance of what two nodes bound: never above the true one.
+double bounds_distance_squared(const Kdop16& a, const Kdop16& b) {
+  constexpr int kAxes = Kdop16::kAxisCount;
+  double gap[kAxes];
+  for (int k = 0; k < kAxes; ++k) {
+    const double below = static_cast<double>(a.lower[k]) - static_cast<double>(b.upper[k]);
+    const double above = static_cast<double>(b.lower[k]) - static_cast<double>(a.upper[k]);
+    gap[k] = std::max({below, above, 0.0});
   }
-  return sum;
+  double squared = gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
+  for (int k = 3; k < kAxes; ++k) squared = std::max(squared, gap[k] * gap[k] / 2);  // their axes are sqrt(2) long
+  return squared;
 }
 
 }  // namespace
@@ -76,20 +78,25 @@ SurfaceOverlap surface_overlap(const AssemblySurface& s, ComponentId a, Componen
   return overlap;
 }
 
-SurfaceDistance nearest_of_surface(const AssemblySurface& s, ComponentId a, ComponentId b, double limit) {
+SurfaceDistance nearest_of_surface(const AssemblySurface& s, ComponentId a, ComponentId b, double limit,
+                                   double accept_below) {
   const NodePair start{s.root_of(a), s.root_of(b)};
   SurfaceDistance nearest{limit, {}};
   if (start.a == kNoNode || start.b == kNoNode) return nearest;
   const BvhView tree(s.triangles.bvh);
-  const auto lower_bound = [&s](NodePair p) { return box_distance_squared(s.bounds[p.a], s.bounds[p.b]); };
+  const auto lower_bound = [&s](NodePair p) { return bounds_distance_squared(s.bounds[p.a], s.bounds[p.b]); };
   double best = limit * limit;  // squared
   std::vector<std::pair<double, NodePair>> open{{lower_bound(start), start}};
   while (!open.empty()) {
     const auto [bound, pair] = open.back();
     open.pop_back();
-    if (bound >= best) continue;
+    // Where the distance is accepted, only triangles that meet are looked for.
+    const bool accepted = nearest.distance < accept_below;
+    if (bound >= best || (accepted && bound > 0)) continue;
     if (tree.is_leaf(pair.a) && tree.is_leaf(pair.b)) {
-      const TriangleDistance d = distance_triangle_triangle(s.leaf_triangle(pair.a), s.leaf_triangle(pair.b));
+      const Triangle of_a = s.leaf_triangle(pair.a), of_b = s.leaf_triangle(pair.b);
+      if (accepted && !intersect_triangle_triangle(of_a, of_b)) continue;
+      const TriangleDistance d = distance_triangle_triangle(of_a, of_b);
       if (d.distance >= nearest.distance) continue;
       nearest = {d.distance, d.point_a};
       best = d.distance * d.distance;

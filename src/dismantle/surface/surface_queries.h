@@ -54,7 +54,9 @@ struct SurfaceDistance {
 };
 
 /// The distance of two components' surfaces, at most `limit` [mm]. As exact as distance_triangle_triangle().
-SurfaceDistance nearest_of_surface(const AssemblySurface& surface, ComponentId a, ComponentId b, double limit);
+/// @param accept_below of surfaces that do not meet, the distance may be any below this [mm] if the true one is
+SurfaceDistance nearest_of_surface(const AssemblySurface& surface, ComponentId a, ComponentId b, double limit,
+                                   double accept_below = 0);
 
 /// The distance of nearest_of_surface() [mm].
 double surface_distance(const AssemblySurface& surface, ComponentId a, ComponentId b, double limit);

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace dismantle {
 
@@ -13,6 +16,15 @@ namespace {
 
 /// Bound of the rounding of a squared distance, relative.
 constexpr double kRounding = 1e-12;
+/// Bound of the rounding of a turned point, relative to its coordinates.
+constexpr double kTurnRounding = 1e-15;
+/// Faces are parallel where the cosine between their normals differs from 1 by less than this, and perpendicular where
+/// it is less than the second value.
+constexpr double kParallel = 1e-10, kPerpendicular = 1e-5;
+/// Axes are sought among the normals of this number of faces, the largest ones.
+constexpr std::size_t kLargestFaces = 16;
+/// Boxes are turned where this share more of the surface is flat along the axes then.
+constexpr double kWorthwhile = 0.1;
 
 /// Squared distance from a point to a box.
 double distance_squared(const Aabb& box, Vec3 p) {
@@ -20,17 +32,92 @@ double distance_squared(const Aabb& box, Vec3 p) {
   return dot(outside, outside);
 }
 
+/// The normals of faces with area, and the areas.
+struct FaceNormals {
+  std::vector<Vec3> normal;
+  std::vector<double> area;
+
+  explicit FaceNormals(const std::vector<Triangle>& triangles) {
+    for (const Triangle& t : triangles) {
+      const Vec3 n = normal_unscaled(t);
+      const double size = length(n);
+      if (!(size > 0)) continue;
+      normal.push_back(n / size);
+      area.push_back(size / 2);
+    }
+  }
+
+  /// The area of the faces that are perpendicular to one of some axes.
+  double area_across(Span<const Vec3> axes) const {
+    double sum = 0;
+    for (std::size_t f = 0; f < normal.size(); ++f)
+      if (std::any_of(axes.begin(), axes.end(),
+                      [&](Vec3 axis) { return std::abs(dot(normal[f], axis)) > 1 - kParallel; }))
+        sum += area[f];
+    return sum;
+  }
+};
+
+/// The axes along which most of a surface is flat, as rows of a rotation: those of its frame where they are about as
+/// good as any.
+Mat3 flat_axes(const std::vector<Triangle>& triangles) {
+  const FaceNormals faces(triangles);
+  std::vector<std::size_t> order(faces.normal.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t count = std::min(kLargestFaces, order.size());
+  std::partial_sort(
+      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+      [&](std::size_t f, std::size_t g) { return std::pair(-faces.area[f], f) < std::pair(-faces.area[g], g); });
+  order.resize(count);
+  /// The normal across which most of the surface is; null for none.
+  const auto best_of = [&](const auto& allowed) {
+    Vec3 best;
+    double most = 0;
+    for (const std::size_t f : order) {
+      const Vec3 n = faces.normal[f];
+      if (!allowed(n)) continue;
+      const double area = faces.area_across({&n, 1});
+      if (area > most) {
+        most = area;
+        best = n;
+      }
+    }
+    return best;
+  };
+  const Mat3 frame;
+  const Vec3 first = best_of([](Vec3) { return true; });
+  if (length_squared(first) == 0) return frame;
+  Vec3 second = best_of([&](Vec3 n) { return std::abs(dot(n, first)) < kPerpendicular; });
+  if (length_squared(second) == 0) {
+    const Vec3& least = *std::min_element(
+        frame.row, frame.row + 3, [&](Vec3 a, Vec3 b) { return std::abs(dot(a, first)) < std::abs(dot(b, first)); });
+    second = least;
+  }
+  const Vec3 third = normalized(cross(first, second));
+  const Mat3 turned{{first, cross(third, first), third}};
+  const double total = std::accumulate(faces.area.begin(), faces.area.end(), 0.0);
+  const double gained = faces.area_across({turned.row, 3}) - faces.area_across({frame.row, 3});
+  return gained > kWorthwhile * total ? turned : frame;
+}
+
 }  // namespace
 
 SurfaceTree::SurfaceTree(const TriangleMesh& mesh, const Executor& executor) {
   static_assert(kStackSize >= kBvhHeuristicDepth + 34);
   DISMANTLE_EXPECT(!mesh.faces.empty());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) triangles_.push_back(mesh.triangle(f));
+  axes_ = flat_axes(triangles_);
+  const bool is_turned = !(axes_ == Mat3{});
   std::vector<Aabb> triangle_boxes;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    triangles_.push_back(mesh.triangle(f));
-    Aabb box;
-    for (const Vec3& corner : triangles_.back().corner) box.extend(corner);
-    triangle_boxes.push_back(box);
+  for (const Triangle& t : triangles_) {
+    Aabb box, turned;
+    for (const Vec3& corner : t.corner) {
+      box.extend(corner);
+      turned.extend(axes_ * corner);
+    }
+    bounds_.extend(box);
+    const double size = std::max(norm_one(box.lower), norm_one(box.upper));
+    triangle_boxes.push_back(is_turned ? inflated(turned, kTurnRounding * size) : box);
   }
   const std::vector<std::uint32_t> component_begin{0, static_cast<std::uint32_t>(mesh.faces.size())};
   bvh_ = bvh_build({triangle_boxes, component_begin}, executor);
@@ -49,6 +136,7 @@ double SurfaceTree::distance_to_face(Vec3 point, std::uint32_t face) const {
 }
 
 MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint, double within) const {
+  const Vec3 turned = axes_ * point;
   struct Waiting {
     NodeIndex node;
     double squared;
@@ -71,8 +159,8 @@ MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint, double within
       continue;
     }
     const BvhChildren children = bvh_.children[at.node - bvh_.leaf_count()];
-    Waiting left{children.left, distance_squared(boxes_[children.left], point)};
-    Waiting right{children.right, distance_squared(boxes_[children.right], point)};
+    Waiting left{children.left, distance_squared(boxes_[children.left], turned)};
+    Waiting right{children.right, distance_squared(boxes_[children.right], turned)};
     if (left.squared > right.squared) std::swap(left, right);
     DISMANTLE_EXPECT(waiting + 2 <= stack.size());
     stack[waiting++] = right;

@@ -4,6 +4,7 @@
 #include "dismantle/bvh/bvh.h"
 #include "dismantle/exec/executor.h"
 #include "dismantle/geometry/triangle_mesh.h"
+#include "dismantle/math/mat3.h"
 #include "dismantle/narrowphase/ray_crossing.h"
 
 #include <array>
@@ -20,7 +21,8 @@ struct MeshDistance {
 };
 
 /// A mesh in its own frame with a BVH of boxes in double: distances of points, by branch and bound, and the triangles
-/// that a ray crosses. Keeps a copy of its triangles.
+/// that a ray crosses. The boxes have the axes along which most of the surface is flat, so that parts that stand at an
+/// angle are bounded as tightly as others. Keeps a copy of its triangles.
 class SurfaceTree {
  public:
   /// Builds the tree; the same one on every executor. @pre the mesh has a triangle
@@ -44,16 +46,21 @@ class SurfaceTree {
   template <class Visit>
   bool for_each_hit(Vec3 point, Vec3 direction, const Visit& visit) const;
 
-  /// Calls visit(face) for every triangle whose box meets `box`. Returns early, false, where visit returns false.
+  /// Calls visit(face) for every triangle whose box meets the box around points, grown by `reach` [mm]. Returns early,
+  /// false, where visit returns false.
   template <class Visit>
-  bool for_each_in_box(const Aabb& box, const Visit& visit) const;
+  bool for_each_near(Span<const Vec3> points, double reach, const Visit& visit) const;
 
   /// The topology of the tree; the triangle of a leaf is leaf_triangle().
   const Bvh& bvh() const { return bvh_; }
-  /// The box of a node [mm].
+  /// The axes of the boxes, as rows: a rotation; of a mesh without a better one, that of its frame.
+  const Mat3& axes() const { return axes_; }
+  /// The box of a node along axes() [mm].
   const Aabb& box(NodeIndex node) const { return boxes_[node]; }
-  /// The box of the mesh [mm].
-  const Aabb& bounds() const { return boxes_[bvh_.root()]; }
+  /// The middle of the box of a node [mm, frame of the mesh].
+  Vec3 center(NodeIndex node) const { return transposed(axes_) * boxes_[node].center(); }
+  /// The box of the mesh along the axes of its frame [mm].
+  const Aabb& bounds() const { return bounds_; }
 
  private:
   // Descending leaves one sibling per level waiting; trees are no deeper than kBvhHeuristicDepth + log2 of the
@@ -61,7 +68,9 @@ class SurfaceTree {
   static constexpr std::size_t kStackSize = 80;
 
   Bvh bvh_;
-  std::vector<Aabb> boxes_;          // of each node
+  Mat3 axes_;
+  Aabb bounds_;
+  std::vector<Aabb> boxes_;          // of each node, along the axes
   std::vector<Triangle> triangles_;  // of the mesh
 };
 
@@ -93,10 +102,11 @@ bool SurfaceTree::for_each_hit(Vec3 point, Vec3 direction, const Visit& visit) c
   std::array<NodeIndex, kStackSize> stack;
   std::size_t waiting = 0;
   stack[waiting++] = bvh_.root();
+  const Vec3 from = axes_ * point, along = axes_ * direction;
   while (waiting > 0) {
     const NodeIndex node = stack[--waiting];
     const Aabb& box = boxes_[node];
-    if (!detail::ray_may_meet({box.lower - point, box.upper - point}, direction)) continue;
+    if (!detail::ray_may_meet({box.lower - from, box.upper - from}, along)) continue;
     if (node >= bvh_.leaf_count()) {
       const BvhChildren children = bvh_.children[node - bvh_.leaf_count()];
       DISMANTLE_EXPECT(waiting + 2 <= stack.size());
@@ -113,7 +123,10 @@ bool SurfaceTree::for_each_hit(Vec3 point, Vec3 direction, const Visit& visit) c
 }
 
 template <class Visit>
-bool SurfaceTree::for_each_in_box(const Aabb& box, const Visit& visit) const {
+bool SurfaceTree::for_each_near(Span<const Vec3> points, double reach, const Visit& visit) const {
+  Aabb box;
+  for (const Vec3& p : points) box.extend(axes_ * p);
+  box = inflated(box, reach);
   std::array<NodeIndex, kStackSize> stack;
   std::size_t waiting = 0;
   stack[waiting++] = bvh_.root();

@@ -36,14 +36,8 @@ template <class Visit>
 bool for_each_near(const SolidTree& surface, std::uint32_t face, const SurfaceTree& other, Vec3 from, Vec3 to,
                    double margin, const Visit& visit) {
   const Triangle t = surface.triangle(face);
-  Aabb box;
-  for (int i = 0; i < 3; ++i) {
-    box.extend(t[i] + from);
-    box.extend(t[i] + to);
-  }
-  const Vec3 around{margin, margin, margin};
-  box = {box.lower - around, box.upper + around};
-  return other.for_each_in_box(box, [&](std::uint32_t other_face) { return visit(face, other_face); });
+  const Vec3 corners[] = {t[0] + from, t[1] + from, t[2] + from, t[0] + to, t[1] + to, t[2] + to};
+  return other.for_each_near({corners, 6}, margin, [&](std::uint32_t other_face) { return visit(face, other_face); });
 }
 
 }  // namespace

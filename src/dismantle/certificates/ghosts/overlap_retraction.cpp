@@ -94,10 +94,8 @@ class Retraction {
 
   /// True if a point gets out through a face that is retracted for others.
   bool gets_out(const Unopposed& point) {
-    Aabb around;
-    around.extend(point.point);
     const SurfaceTree& surface = solids_[0]->shape().surface();
-    return !surface.for_each_in_box(inflated(around, depth_), [&](std::uint32_t face) {
+    return !surface.for_each_near({&point.point, 1}, depth_, [&](std::uint32_t face) {
       const Vec3 way = closest_point_of_triangle(surface.triangle(face), point.point) - point.point;
       return dot(way, normals_[face]) < kAlong * length(way) || length(way) > needed_[root(face)];
     });

@@ -41,12 +41,13 @@ std::array<Vec3, 6> corners_of(const MovingPart& part) {
 bool clear_of(const SurfaceTree& surface, const PartHull& hull, double gap, Vec3 passes = {}) {
   const bool is_way = length_squared(passes) > 0;
   const Bvh& bvh = surface.bvh();
+  const PartHull turned = hull.turned(surface.axes());
   int seen = 0;
   std::vector<NodeIndex> nodes{bvh.root()};
   while (!nodes.empty()) {
     const NodeIndex node = nodes.back();
     nodes.pop_back();
-    if (!hull.may_meet(surface.box(node), gap)) continue;
+    if (!turned.may_meet(surface.box(node), gap)) continue;
     if (node >= bvh.leaf_count()) {
       const BvhChildren children = bvh.children[node - bvh.leaf_count()];
       nodes.push_back(children.left);

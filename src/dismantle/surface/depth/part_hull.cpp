@@ -29,6 +29,16 @@ PartHull::PartHull(const MovingPart& part, Span<const Vec3> shifts) {
   }
 }
 
+PartHull PartHull::turned(const Mat3& axes) const {
+  PartHull hull;
+  hull.count_ = count_;
+  for (int i = 0; i < count_; ++i) hull.box_.extend(hull.corner_[i] = axes * corner_[i]);
+  hull.normal_ = axes * normal_;
+  hull.lower_ = lower_;
+  hull.upper_ = upper_;
+  return hull;
+}
+
 bool PartHull::may_meet(const Aabb& box, double gap) const {
   if (!overlaps(box_, {box.lower - Vec3{gap, gap, gap}, box.upper + Vec3{gap, gap, gap}})) return false;
   const Vec3 half = (box.upper - box.lower) / 2;

@@ -4,6 +4,7 @@
 #include "dismantle/core/span.h"
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/geometry/triangle.h"
+#include "dismantle/math/mat3.h"
 
 #include <array>
 #include <cstdint>
@@ -30,6 +31,9 @@ class PartHull {
   /// Of one or two copies of it, each shifted [mm].
   PartHull(const MovingPart& part, Span<const Vec3> shifts);
 
+  /// The same hull along other axes, the rows of a rotation.
+  PartHull turned(const Mat3& axes) const;
+
   /// The box around it [mm].
   const Aabb& box() const { return box_; }
   /// False if it is certainly further than `gap` from a box; across the part, it is thinner than its own box is.
@@ -38,6 +42,7 @@ class PartHull {
   bool apart(const Triangle& face, double gap) const;
 
  private:
+  PartHull() = default;
   bool apart_along(Vec3 axis, const Triangle& face, double gap) const;
 
   std::array<Vec3, 12> corner_;

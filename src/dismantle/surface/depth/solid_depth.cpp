@@ -130,8 +130,7 @@ class DepthSearch {
       return;
     }
     ++best_.pieces;
-    const Aabb& box = own.box(node);
-    const Ball ball{facing.other_from_own * box.center(), diagonal(box) / 2};
+    const Ball ball{facing.other_from_own * own.center(node), diagonal(own.box(node)) / 2};
     const SurfaceTree& surface = facing.other->surface();
     if (side_ == Side::Inside && facing.other->winding().closed() &&
         distance(surface.bounds(), ball.center) > ball.radius)
@@ -240,11 +239,10 @@ class DepthSearch {
 
   /// The largest face that a polygon meets when moved by `shift`; kMany if it meets many.
   std::uint32_t largest_met(const SurfaceTree& surface, ConvexPolygon polygon, Vec3 shift) const {
-    Aabb box;
-    for (Vec3& p : polygon) box.extend(p += shift);
+    for (Vec3& p : polygon) p += shift;
     std::uint32_t largest = Piece::kNone, count = 0;
     double area = -1;
-    const bool few = surface.for_each_in_box(box, [&](std::uint32_t face) {
+    const bool few = surface.for_each_near(polygon, 0, [&](std::uint32_t face) {
       const Triangle& t = surface.triangle(face);
       if (!meets(polygon, t)) return true;
       if (++count > kFewCutters) return false;

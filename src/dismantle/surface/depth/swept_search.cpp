@@ -51,6 +51,12 @@ Aabb InterpolatedTransform::operator*(const Aabb& own) const {
   return {center - reach, center + reach};
 }
 
+InterpolatedTransform InterpolatedTransform::along(const Mat3& axes) const {
+  InterpolatedTransform result = *this;
+  result.matrix = matrix * transposed(axes);
+  return result;
+}
+
 SweptSearch::SweptSearch(const SolidShape& own, const SolidShape& other, const RigidTransform& start,
                          const RigidTransform& end, const DepthRule& rule, bool is_limited, ShallowParts* known,
                          const KeepGoing& keep_going)
@@ -71,7 +77,7 @@ std::optional<ShallowParts::EndedAt> SweptSearch::begin() {
 std::optional<TimedPoint> SweptSearch::sample(double time, std::size_t max_pieces) {
   if (!is_limited_) return std::nullopt;
   const std::size_t most = std::clamp(max_pieces / kPiecesPerSample, kFewestSamples, kSamples);
-  const InterpolatedTransform& now = at(time);
+  const auto& [now, of_boxes] = at(time);
   const SurfaceTree& own = own_.surface();
   const Bvh& bvh = own.bvh();
   std::vector<NodeIndex> nodes{bvh.root()};
@@ -81,7 +87,7 @@ std::optional<TimedPoint> SweptSearch::sample(double time, std::size_t max_piece
     const NodeIndex node = nodes.back();
     nodes.pop_back();
     ++visited_;
-    if (rule_.region->contains(now * own.box(node))) continue;
+    if (rule_.region->contains(of_boxes * own.box(node))) continue;
     if (node >= bvh.leaf_count()) {
       const BvhChildren children = bvh.children[node - bvh.leaf_count()];
       nodes.push_back(children.left);
@@ -146,7 +152,7 @@ SweptSearch::Result SweptSearch::search(double from, double to, const Visit& in_
     const TimedNode next = waiting.back();
     waiting.pop_back();
     const Aabb& own = own_.surface().box(next.node);
-    const Aabb begin = at(next.from) * own, end = at(next.to) * own;
+    const Aabb begin = at(next.from).of_boxes * own, end = at(next.to).of_boxes * own;
     Aabb both = begin;
     both.extend(end);
     if (rule_.region->contains(both)) continue;
@@ -223,15 +229,17 @@ void SweptSearch::keep(const MovingPart& face, std::vector<ShallowPart> parts) {
 }
 
 MovingPart SweptSearch::part(const Triangle& own, std::uint32_t face, double from, double to) {
-  return {own, at(from) * own, at(to) * own, from, to, face};
+  return {own, at(from).now * own, at(to).now * own, from, to, face};
 }
 
 /// The placement of the surface at a time; most times are among the last ones.
-const InterpolatedTransform& SweptSearch::at(double time) {
-  for (const InterpolatedTransform& known : recent_)
-    if (known.time == time) return known;
-  InterpolatedTransform& oldest = recent_[next_recent_++ % recent_.size()];
-  return oldest = InterpolatedTransform(start_, end_, time);
+const SweptSearch::Placement& SweptSearch::at(double time) {
+  for (const Placement& known : recent_)
+    if (known.now.time == time) return known;
+  Placement& oldest = recent_[next_recent_++ % recent_.size()];
+  oldest.now = InterpolatedTransform(start_, end_, time);
+  oldest.of_boxes = oldest.now.along(own_.surface().axes());
+  return oldest;
 }
 
 }  // namespace dismantle

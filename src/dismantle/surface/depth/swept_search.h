@@ -28,6 +28,8 @@ struct InterpolatedTransform {
   Triangle operator*(const Triangle& own) const { return {{*this * own[0], *this * own[1], *this * own[2]}}; }
   /// The box around the places of the points of a box [mm].
   Aabb operator*(const Aabb& own) const;
+  /// The map of points that are given along other axes, the rows of a rotation.
+  InterpolatedTransform along(const Mat3& axes) const;
 };
 
 /// Searches one surface of a pair, which moves in the frame of the other shape, for points that get too deep: see
@@ -74,7 +76,11 @@ class SweptSearch {
   Result find_in_known(const MovingPart& face, std::size_t& pieces, std::size_t max_pieces);
   void keep(const MovingPart& face, std::vector<ShallowPart> parts);
   MovingPart part(const Triangle& own, std::uint32_t face, double from, double to);
-  const InterpolatedTransform& at(double time);
+  struct Placement {
+    InterpolatedTransform now;       // of the surface
+    InterpolatedTransform of_boxes;  // of the boxes of its tree
+  };
+  const Placement& at(double time);
 
   const SolidShape& own_;
   const SolidShape& other_;
@@ -83,7 +89,7 @@ class SweptSearch {
   DepthRule rule_;
   ShallowParts* known_;
   MovingPartSearch parts_;
-  std::array<InterpolatedTransform, 8> recent_;  // of the last times
+  std::array<Placement, 8> recent_;  // of the last times
   std::size_t next_recent_ = 0;
   std::size_t samples_ = 0;
   std::size_t visited_ = 0;  // nodes and known parts

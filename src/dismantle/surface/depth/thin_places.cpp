@@ -76,10 +76,9 @@ class OppositeFaces {
   /// A face on the other side of a wall; nothing where the solid is thicker.
   std::optional<std::uint32_t> find(std::uint32_t f) const {
     const PlaneFace& face = faces_[f];
-    const Vec3 reach{2 * limit_, 2 * limit_, 2 * limit_};
     Aabb box;
-    for (const Vec3& p : face.triangle.corner) box.extend(p);
-    box = {box.lower - reach, box.upper + reach};
+    for (const Vec3& p : face.triangle.corner) box.extend(surface_.axes() * p);
+    box = inflated(box, 2 * limit_);
     const Bvh& bvh = surface_.bvh();
     std::vector<NodeIndex> waiting{bvh.root()};
     while (!waiting.empty()) {
