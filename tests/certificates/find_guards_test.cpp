@@ -3,10 +3,7 @@
 #include "dismantle/certificates/ghosts/find_guards.h"
 
 #include "dismantle/certificates/certificate_engine.h"
-#include "dismantle/certificates/ghosts/separating_ghost.h"
 #include "dismantle/certificates/sweep/assembly_surfaces.h"
-#include "dismantle/narrowphase/distance_triangle_triangle.h"
-#include "dismantle/surface/solid_distance.h"
 #include "tests/certificates/grabbed_component.h"
 #include "tests/support/depth_oracle.h"
 #include "tests/support/faulty_meshes.h"
@@ -192,35 +189,6 @@ TEST(FurtherApart, IsTrueOutsideOfEachOtherAndFromThatDistanceOn) {
     EXPECT_FALSE(apart(-1, distance));
     EXPECT_FALSE(apart(-7, distance)) << "within the floor, 2 mm from its faces";
   }
-}
-
-TEST(SeparatingGhost, IsFoundForBlocksOfOneOutlineInMostOrientations) {
-  // One block on the other, as files have them: they touch to within rounding only.
-  const auto placed = [](TriangleMesh mesh, const Pose& pose) {
-    mesh = scenes::moved(std::move(mesh), pose);
-    for (Vec3& p : mesh.vertices)
-      for (int i = 0; i < 3; ++i) p[i] = static_cast<double>(static_cast<float>(p[i]));
-    return scenes::component("block", std::move(mesh));
-  };
-  const TriangleMesh low = scenes::box({0, 0, 0}, {5, 7, 5}), high = scenes::box({0, 0, 5}, {5, 7, 10});
-  constexpr double kGap = 0.002;
-  std::mt19937_64 random(17);
-  int count = 0;
-  for (int k = 0; k < 30; ++k) {
-    const Pose pose = scenes::random_pose(random, 100, 3);
-    const Component components[] = {placed(low, pose), placed(high, pose)};
-    const SolidTree own = make_solid_tree(components[0], {}), other = make_solid_tree(components[1], {});
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> near;
-    for (std::uint32_t f = 0; f < own.faces.size(); ++f)
-      for (std::uint32_t g = 0; g < other.faces.size(); ++g)
-        if (distance_triangle_triangle(own.triangle(f), other.triangle(g)).distance < 3 * kGap) near.emplace_back(f, g);
-    const auto found = separating_ghost({&own, &other, own.vertices, near, 1.2 * kGap, kGap});
-    if (!found) continue;
-    ++count;
-    const SolidTree ghost = make_displaced_tree(own, *found, {});
-    EXPECT_GT(solid_distance({&ghost, {}}, {&other, {}}, 1).distance, 0.4 * kGap) << k;
-  }
-  EXPECT_GE(count, 25) << "9 where rounding chooses among axes";
 }
 
 /// none_inside() of two components, either way round.

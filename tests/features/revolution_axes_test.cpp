@@ -32,6 +32,25 @@ TEST(RevolutionAxes, FindsTheAxisOfATubeInAnyPose) {
       }
 }
 
+TEST(RevolutionAxes, OrientationAndRoundingDoNotDivideAnAxis) {
+  std::mt19937_64 random(4);
+  const TriangleMesh straight = scenes::tube(10, 6, -20, 20, 48, 3);
+  const double turn = revolution_axes(straight.vertices, straight.faces).at(0).turn;
+  for (int i = 0; i < 300; ++i) {
+    Pose pose = scenes::random_pose(random, 100, 3);
+    // Every third one lies between two coordinate axes, where the sign of a direction is a matter of rounding.
+    if (i % 3 == 0) pose.rotation = quat_about(normalized(Vec3{1, i % 2 == 0 ? 1.0 : -1.0, 0}), 1.5707963267948966);
+    TriangleMesh mesh = scenes::moved(straight, pose);
+    for (Vec3& p : mesh.vertices)
+      p = {static_cast<double>(static_cast<float>(p.x)), static_cast<double>(static_cast<float>(p.y)),
+           static_cast<double>(static_cast<float>(p.z))};
+    const std::vector<RevolutionAxis> axes = revolution_axes(mesh.vertices, mesh.faces);
+    ASSERT_EQ(axes.size(), 1u) << i;
+    EXPECT_NEAR(axes[0].turn, turn, 0.02 * turn) << i;
+    EXPECT_LT(off(axes[0], pose.position), 1e-3) << i;
+  }
+}
+
 TEST(RevolutionAxes, FindsAllAxesOfAMeshTheLargestFirst) {
   TriangleMesh mesh = scenes::tube(10, 6, 0, 20, 48, 3);
   const std::size_t first = mesh.vertices.size();

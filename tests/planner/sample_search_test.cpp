@@ -41,7 +41,7 @@ TEST(SampleSearch, LeadsARingThroughTheGapOfAnother) {
 }
 
 TEST(SampleSearch, GivesTheSamePathForTheSameInput) {
-  const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(scenes::open_rings(6)));
+  const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(scenes::open_rings(6.1)));
   const Plan first = plan_by_chance(scene, 400'000), second = plan_by_chance(scene, 400'000);
   ASSERT_EQ(first.steps.size(), 1u);
   EXPECT_EQ(first.steps[0].tier, PlanTier::Sampled);
@@ -57,7 +57,7 @@ TEST(SampleSearch, FindsNoExitFromAClosedShellAndEnds) {
 }
 
 TEST(SampleSearch, SaysWhetherMoreEffortMayFindMore) {
-  const scenes::PlanScene rings = scenes::plan_scene(scenes::assembly(scenes::open_rings(6)));
+  const scenes::PlanScene rings = scenes::plan_scene(scenes::assembly(scenes::open_rings(6.1)));
   const Plan early = plan_by_chance(rings, 100);
   ASSERT_FALSE(early.staying.empty());
   EXPECT_TRUE(early.effort_spent);

@@ -96,7 +96,7 @@ TEST_F(ServerSearch, PlansWithWhatIsPreferred) {
 }
 
 TEST_F(ServerSearch, SearchesAsLongAsAskedForAndSaysWhetherMoreMayHelp) {
-  start_with(scenes::assembly(scenes::open_rings(5)));
+  start_with(scenes::assembly(scenes::open_rings(6.1)));
   Client client(address());
   client.state();
   search(client, "plan", {{"effort", 0.0005}});

@@ -22,12 +22,15 @@ constexpr double kQuarterTurn = 1.5707963;
 /// Faces that meet at a smaller sine are coplanar; those that meet at a smaller cosine form a corner.
 constexpr double kMinSine = 1e-4;
 constexpr double kMinCosine = 0.5;
-/// Axes agree if their directions and positions are in one cell of these sizes; positions relative to the box's
-/// diagonal.
+/// Axes agree if the sine between them, and their distance relative to the box's diagonal, are no larger than these:
+/// the sizes of the cells in which they are collected.
 constexpr double kSameDirection = 1e-3;
 constexpr double kSamePlace = 1e-4;
 /// The origin of cells, so that round coordinates are not at their borders.
 constexpr double kCellOffset = 0.3819660113;
+/// Cells around which axes are sought: the smallest turn of the edges in one [rad], and how many there are at most.
+constexpr double kMinCell = kQuarterTurn / 16;
+constexpr std::size_t kMaxCells = 256;
 
 using Cell = std::array<std::int64_t, 6>;
 
@@ -74,6 +77,46 @@ RevolutionAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const 
   return axis;
 }
 
+/// The sum of axes that agree, weighted by their turns.
+struct AxisSum {
+  Vec3 offset;  // from the middle of the mesh's box, times the turn
+  Vec3 direction;
+  double turn = 0;
+
+  void add(const RevolutionAxis& axis) {
+    const double sign = dot(direction, axis.direction) < 0 ? -1 : 1;
+    offset += axis.turn * axis.point;
+    direction += sign * axis.turn * axis.direction;
+    turn += axis.turn;
+  }
+  RevolutionAxis mean() const { return {offset / turn, normalized(direction), turn}; }
+};
+
+bool more_turn(const RevolutionAxis& x, const RevolutionAxis& y) {
+  return x.turn > y.turn;
+}
+
+/// One axis for all cells that hold it.
+std::vector<RevolutionAxis> joined(const std::map<Cell, AxisSum>& cells, double diagonal) {
+  std::vector<RevolutionAxis> means, axes;
+  means.reserve(cells.size());
+  for (const auto& [cell, sum] : cells) means.push_back(sum.mean());
+  std::stable_sort(means.begin(), means.end(), more_turn);
+  std::vector<bool> taken(means.size());
+  for (std::size_t i = 0, seeds = 0; i < means.size() && means[i].turn >= kMinCell && seeds < kMaxCells; ++i) {
+    if (taken[i]) continue;
+    ++seeds;
+    AxisSum sum;
+    for (std::size_t k = i; k < means.size(); ++k)
+      if (!taken[k] && same_axis(means[i], means[k], kSameDirection, kSamePlace * diagonal)) {
+        taken[k] = true;
+        sum.add(means[k]);
+      }
+    if (sum.turn >= kQuarterTurn) axes.push_back(sum.mean());
+  }
+  return axes;
+}
+
 /// Relative difference between the distances from the axis of a cylinder's corners, at most.
 constexpr double kOneDistance = 1e-3;
 /// Cosine between the normal of a cylinder's face and the direction away from the axis, or to it, at least.
@@ -117,24 +160,20 @@ std::vector<RevolutionAxis> revolution_axes(Span<const Vec3> vertices, Span<cons
   if (box.empty()) return {};
   const Vec3 middle = box.center();
   const double diagonal = length(box.size());
-  std::map<Cell, RevolutionAxis> cells;  // sums, weighted by the turn
+  std::map<Cell, AxisSum> cells;
   for (const NeighbouringFaces& pair : neighbouring_faces(faces)) {
-    const RevolutionAxis axis = axis_of(vertices, faces, pair, middle);
+    RevolutionAxis axis = axis_of(vertices, faces, pair, middle);
     const Vec3 offset = axis.point - middle, d = axis.direction;
     if (!(axis.turn > 0) || !(max_abs(offset) <= diagonal)) continue;
+    axis.point = offset;
     const double size = kSamePlace * diagonal;
-    RevolutionAxis& sum =
-        cells[{cell_at(d.x, kSameDirection), cell_at(d.y, kSameDirection), cell_at(d.z, kSameDirection),
-               cell_at(offset.x, size), cell_at(offset.y, size), cell_at(offset.z, size)}];
-    sum.point += axis.turn * offset;
-    sum.direction += axis.turn * d;
-    sum.turn += axis.turn;
+    cells[{cell_at(d.x, kSameDirection), cell_at(d.y, kSameDirection), cell_at(d.z, kSameDirection),
+           cell_at(offset.x, size), cell_at(offset.y, size), cell_at(offset.z, size)}]
+        .add(axis);
   }
-  std::vector<RevolutionAxis> axes;
-  for (const auto& [cell, sum] : cells)
-    if (sum.turn >= kQuarterTurn) axes.push_back({middle + sum.point / sum.turn, normalized(sum.direction), sum.turn});
-  std::stable_sort(axes.begin(), axes.end(),
-                   [](const RevolutionAxis& x, const RevolutionAxis& y) { return x.turn > y.turn; });
+  std::vector<RevolutionAxis> axes = joined(cells, diagonal);
+  for (RevolutionAxis& axis : axes) axis.point += middle;
+  std::stable_sort(axes.begin(), axes.end(), more_turn);
   if (axes.size() > kMaxRevolutionAxes) axes.resize(kMaxRevolutionAxes);
   return axes;
 }

@@ -22,6 +22,8 @@ constexpr double kEnough = 0.5;
 /// Faces count as touching up to this share of the gap, and axes as equally good: files round by as much as a hundredth
 /// of it (coordinates in single precision).
 constexpr double kTouching = 0.03;
+/// Bound of the rounding of the length of a displacement, relative.
+constexpr double kRounding = 1e-6;
 
 class Displacing {
  public:
@@ -29,6 +31,7 @@ class Displacing {
       : request_(request),
         first_(first_at_position(request.own->vertices)),
         bounds_(request.own->vertices.size()),
+        has_start_(request.own->vertices.size()),
         is_new_(request.own->faces.size(), true),
         displaced_(request.start.begin(), request.start.end()) {}
 
@@ -46,8 +49,14 @@ class Displacing {
     std::sort(changed_.begin(), changed_.end());
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
     for (const std::uint32_t v : changed_) {
-      const std::optional<Vec3> least = least_vector(bounds_[v]);
-      if (!least || length(*least) > request_.max_length) return false;
+      std::optional<Vec3> least = least_within_reach(v);
+      if (!least && has_start_[v]) {
+        // Where it starts is not what the faces need.
+        bounds_[v].erase(bounds_[v].begin());
+        has_start_[v] = false;
+        least = least_within_reach(v);
+      }
+      if (!least) return false;
       displaced_[v] = request_.own->vertices[v] + *least;
     }
     std::vector<bool> is_changed(displaced_.size());
@@ -64,6 +73,12 @@ class Displacing {
   std::vector<Vec3> take() { return std::move(displaced_); }
 
  private:
+  /// The shortest displacement of a vertex within its bounds, if it is not too long.
+  std::optional<Vec3> least_within_reach(std::uint32_t v) const {
+    const std::optional<Vec3> least = least_vector(bounds_[v]);
+    return least && length(*least) <= (1 + kRounding) * request_.max_length ? least : std::nullopt;
+  }
+
   Triangle displaced(std::uint32_t face) const {
     const Face& f = request_.own->faces[face];
     return {{displaced_[f.v[0]], displaced_[f.v[1]], displaced_[f.v[2]]}};
@@ -124,8 +139,10 @@ class Displacing {
       if (distance <= -request_.max_length) continue;
       // The displacement that the vertex starts with counts as a bound, too.
       if (bounds_[v].empty())
-        if (const Vec3 before = displaced_[v] - request_.own->vertices[v]; length(before) > 0)
+        if (const Vec3 before = displaced_[v] - request_.own->vertices[v]; length(before) > 0) {
           bounds_[v].push_back({before / length(before), length(before)});
+          has_start_[v] = true;
+        }
       bounds_[v].push_back({-axis, distance});
       changed_.push_back(v);
     }
@@ -135,7 +152,8 @@ class Displacing {
   const GhostRequest& request_;
   std::vector<std::uint32_t> first_;
   std::vector<std::vector<VectorBound>> bounds_;  // of the first vertex at each position
-  std::vector<bool> is_new_;                      // for each face, if a corner was displaced since it was looked at
+  std::vector<bool> has_start_;  // for each vertex, if its first bound is the displacement it starts with
+  std::vector<bool> is_new_;     // for each face, if a corner was displaced since it was looked at
   std::vector<Vec3> displaced_;
   std::vector<std::uint32_t> changed_;
 };
