@@ -4,6 +4,7 @@
 #include "dismantle/audit/audit_path.h"
 #include "dismantle/planner/plan_path.h"
 #include "dismantle/planner/search/component_axes.h"
+#include "dismantle/planner/search/curved_steps.h"
 #include "tests/planner/plan_scenes.h"
 #include "tests/support/disassembly_cases.h"
 #include "tests/support/faulty_meshes.h"
@@ -65,6 +66,33 @@ TEST(ScrewSearch, TurnsNoPlateThatIsHeldByThreeScrews) {
       EXPECT_TRUE(axes.may_turn(ComponentId(k), known.thread, body));
   body.erase(std::vector<ComponentId>{ComponentId(1), ComponentId(2)});
   EXPECT_TRUE(axes.may_turn(plate_id, threads[2].thread, body));
+}
+
+TEST(ScrewSearch, DoesNotTurnWhatPartsStraight) {
+  // A bolt between a floor and a lid, in a nut with the same thread that is as wide or far wider.
+  for (const bool wider : {false, true}) {
+    std::vector<Component> components = scenes::short_screw(0.05, 20);
+    if (wider) components[0] = scenes::short_screw(1.2, 20)[0];
+    const Aabb bolt = bounds(*components[1].mesh);
+    for (const double z : {bolt.lower.z - 1.2, bolt.upper.z + 0.2})
+      components.push_back(scenes::component("plate", scenes::box({-9, -9, z}, {9, 9, z + 1})));
+    const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(std::move(components)));
+    std::vector<ShapeFeatures> features;
+    for (const Component& c : scene.assembly.components) features.push_back(shape_features(assembled_mesh(c)));
+    const RigidGroups groups(4);
+    const KeepGoing always = [] { return true; };
+    MotionValidator validator(scene.assembly, scene.pairs, {}, groups, 1e4, always);
+    BlockingTable table(validator.engine(), features, groups, always);
+    const PlannedAssembly planned{scene.assembly, features, scene.pairs.tolerance};
+    const ComponentSet all = ComponentSet::all(4);
+    ComponentSet staying = all;
+    staying.erase(ComponentId(1));
+    const DirectionChoice choice(planned, table, validator.engine(), staying, {}, always);
+    CurvedSteps curved(planned, {groups, features, validator, table, choice, always}, 0, 0);
+    ASSERT_FALSE(ComponentAxes(planned, validator).threads_of(ComponentId(1)).empty());
+    EXPECT_FALSE(curved.find_screwed(all, staying, CurvedSteps::Groups::Single, nullptr));
+    EXPECT_EQ(validator.effort() > 0, !wider);
+  }
 }
 
 TEST(ScrewSearch, SeesNoThreadInAPlainBore) {

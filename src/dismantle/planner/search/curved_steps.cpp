@@ -31,12 +31,25 @@ std::optional<PlanStep> CurvedSteps::find_screwed(const ComponentSet& body, cons
         continue;
       std::vector<ComponentId>& met = met_[{c, neighbour}];
       if (!met.empty() && body.has_all(met)) continue;
+      if (!holds(c, neighbour, thread.direction)) continue;
       PathSearch search = screw_out(with_.validator, with_.table, c, thread, with_.keep_going);
       if (search.step) return with_group(std::move(*search.step));
       met = std::move(search.met);
     }
   }
   return std::nullopt;
+}
+
+/// True if a thread keeps two components from parting straight along its axis. A wheel on its shaft does not need to be
+/// turned, whatever their faces look like, and turning it would take thousands of steps.
+bool CurvedSteps::holds(ComponentId c, ComponentId neighbour, Vec3 axis) {
+  const auto [known, is_new] = held_.try_emplace({c, neighbour}, true);
+  if (!is_new) return known->second;
+  const double way = with_.table.max_exit_distance(c);
+  for (const Vec3 direction : {axis, -axis})
+    known->second = known->second &&
+                    with_.validator.engine().straight_contact(c, neighbour, way * direction, StraightSearch::Quick);
+  return known->second;
 }
 
 std::optional<PlanStep> CurvedSteps::find_sliding(const ComponentSet& body, const ComponentSet& staying) {

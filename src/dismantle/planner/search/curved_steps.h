@@ -53,6 +53,7 @@ class CurvedSteps {
   template <class Search>
   std::optional<PlanStep> find_long(LongSearches& searches, const ComponentSet& body, const ComponentSet& staying,
                                     const Search& search);
+  bool holds(ComponentId c, ComponentId neighbour, Vec3 axis);
   PlanStep with_group(PlanStep step) const;
   std::vector<ComponentId> smallest_first(const ComponentSet& body, const ComponentSet& staying) const;
 
@@ -60,6 +61,7 @@ class CurvedSteps {
   ComponentAxes axes_;
   LongSearches sliding_, sampling_;
   std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by pairs that could not be unscrewed
+  std::map<std::pair<ComponentId, ComponentId>, bool> held_;                     // by pairs: see holds()
 };
 
 }  // namespace dismantle
