@@ -3,6 +3,7 @@
 #include "apps/cli/option_checks.h"
 #include "apps/cli/part_options.h"
 #include "apps/cli/plan_text.h"
+#include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/documents/path_file.h"
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/instructions/precedence_drawing.h"
@@ -103,11 +104,13 @@ std::size_t removed_count(const Plan& plan) {
   return removed.size();
 }
 
+/// The least time limit of a plan, so that one without time left reports that it ran out of time [s].
+constexpr double kLeastTime = 1e-3;
+
 /// The remaining time of a limit that counts from the start of the command [s]; 0 if there is no limit.
 double time_left(double limit, std::chrono::steady_clock::time_point begun) {
-  constexpr double kLeast = 1e-3;
   if (limit == 0) return 0;
-  return std::max(kLeast, limit - std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+  return std::max(kLeastTime, limit - std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
 }
 
 Result<ExitCode> run(const PlanCommand& command) {
@@ -137,6 +140,12 @@ Result<ExitCode> run(const PlanCommand& command) {
   options.fasteners = command.fasteners;
   options.flexible = choices->flexible;
   options.overlap_limit = command.allow_overlap > 0 ? command.allow_overlap : default_overlap_limit(*assembly);
+  const auto planning = std::chrono::steady_clock::now();
+  // Both plans below use what is prepared here.
+  options.engine.keep_going = [&] {
+    return command.time_limit == 0 || time_left(command.time_limit, begun) > kLeastTime;
+  };
+  options.engine.prepared = CertificateEngine(*assembly, *states, options.engine).surfaces();
   const auto make_plan = [&] {
     options.together = choices->groups.of_several();
     options.time_limit = time_left(command.time_limit, begun);
@@ -146,13 +155,16 @@ Result<ExitCode> run(const PlanCommand& command) {
   AllowingPlan found = make_plan();
   const PartChoices first_choices = *choices;
   if (!found.plan.out_of_time && take_back(*choices, found.plan)) {
+    const auto is_better = [&](const Plan& plan) { return removed_count(plan) > removed_count(found.plan); };
+    if (command.allow_overlap == 0) options.wants_reasons = is_better;  // else more may come out thanks to reasons
     AllowingPlan second = make_plan();
-    if (removed_count(second.plan) > removed_count(found.plan)) {
+    if (is_better(second.plan)) {
       found = std::move(second);
     } else {
       *choices = first_choices;
     }
   }
+  found.plan.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - planning).count();
   const Plan& plan = found.plan;
   const Path path = plan_path(*assembly, found.pairs, plan);
   const Result<Done> written = write_path(command.output, path);

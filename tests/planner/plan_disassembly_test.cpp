@@ -159,6 +159,28 @@ TEST(PlanDisassembly, TakesNothingOutOfWhatIsLocked) {
   EXPECT_FALSE(chain.complete());
 }
 
+TEST(PlanDisassembly, GivesReasonsWhereTheyAreWanted) {
+  std::vector<Component> components = scenes::chain_links();
+  components.push_back(scenes::component("loose", scenes::box({100, 0, 0}, {110, 10, 10})));
+  const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(std::move(components)));
+  for (const bool wanted : {false, true}) {
+    PlanOptions options;
+    std::size_t asked = 0;
+    options.wants_reasons = [&](const Plan& plan) {
+      ++asked;
+      EXPECT_EQ(plan.steps.size(), 1u);
+      EXPECT_TRUE(plan.staying.empty());
+      return wanted;
+    };
+    const Plan plan = plan_disassembly(scene.assembly, scene.pairs, options);
+    EXPECT_EQ(asked, 1u);
+    EXPECT_EQ(plan.steps.size(), 1u);
+    ASSERT_EQ(plan.staying.size(), 1u);
+    EXPECT_EQ(plan.staying[0].blockers.empty(), !wanted);
+    EXPECT_FALSE(plan.complete());
+  }
+}
+
 TEST(PlanDisassembly, TakesOutTogetherWhatIsLocked) {
   std::vector<Component> components = scenes::chain_links();
   components.push_back(scenes::component("plate", scenes::box({-40, -40, -20}, {40, 40, -8})));

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 
 namespace dismantle {
@@ -102,15 +103,24 @@ std::vector<RevolutionAxis> joined(const std::map<Cell, AxisSum>& cells, double 
   means.reserve(cells.size());
   for (const auto& [cell, sum] : cells) means.push_back(sum.mean());
   std::stable_sort(means.begin(), means.end(), more_turn);
+  // By a coordinate of their points, which are no further apart than this where axes agree.
+  const double near = 2 * (kSamePlace + kSameDirection) * diagonal;
+  std::vector<std::uint32_t> by_place(means.size());
+  std::iota(by_place.begin(), by_place.end(), 0u);
+  std::sort(by_place.begin(), by_place.end(),
+            [&](std::uint32_t i, std::uint32_t k) { return means[i].point.x < means[k].point.x; });
   std::vector<bool> taken(means.size());
   for (std::size_t i = 0, seeds = 0; i < means.size() && means[i].turn >= kMinCell && seeds < kMaxCells; ++i) {
     if (taken[i]) continue;
     ++seeds;
     AxisSum sum;
-    for (std::size_t k = i; k < means.size(); ++k)
-      if (!taken[k] && same_axis(means[i], means[k], kSameDirection, kSamePlace * diagonal)) {
-        taken[k] = true;
-        sum.add(means[k]);
+    const RevolutionAxis& seed = means[i];
+    auto k = std::partition_point(by_place.begin(), by_place.end(),
+                                  [&](std::uint32_t m) { return means[m].point.x < seed.point.x - near; });
+    for (; k != by_place.end() && means[*k].point.x <= seed.point.x + near; ++k)
+      if (!taken[*k] && same_axis(seed, means[*k], kSameDirection, kSamePlace * diagonal)) {
+        taken[*k] = true;
+        sum.add(means[*k]);
       }
     if (sum.turn >= kQuarterTurn) axes.push_back(sum.mean());
   }

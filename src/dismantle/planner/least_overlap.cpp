@@ -17,16 +17,11 @@ constexpr double kFirstShare = 0.25;
 
 }  // namespace
 
-std::optional<LeastOverlap> OverlapSearch::find(ComponentId component, Span<const DirectionId> directions,
-                                                const ComponentSet& present, double most,
-                                                const KeepGoing& keep_going) const {
+std::vector<OverlapSearch::Way> OverlapSearch::ways_out(ComponentId component, Span<const DirectionId> directions,
+                                                        const ComponentSet& present) {
   const Span<const ComponentId> group = table_.groups().of(component);
   ComponentSet others = present;
   others.erase(group);
-  struct Way {
-    DirectionId direction;
-    std::vector<std::pair<ComponentId, ComponentId>> blocked;  // one that moves, and what blocks it
-  };
   std::vector<Way> ways;
   for (const DirectionId d : directions) {
     Way way{d, {}};
@@ -38,7 +33,11 @@ std::optional<LeastOverlap> OverlapSearch::find(ComponentId component, Span<cons
   std::stable_sort(ways.begin(), ways.end(),
                    [](const Way& a, const Way& b) { return a.blocked.size() < b.blocked.size(); });
   if (ways.size() > kMaxDirections) ways.resize(kMaxDirections);
+  return ways;
+}
 
+std::optional<LeastOverlap> OverlapSearch::find(const std::vector<Way>& ways, double most,
+                                                const KeepGoing& keep_going) const {
   std::optional<LeastOverlap> best;
   for (const Way& way : ways) {
     LeastOverlap found{table_.direction(way.direction), 0, {}};
@@ -64,12 +63,14 @@ std::optional<NeededOverlap> OverlapSearch::needed(ComponentId moving, Direction
   Assembly two;
   two.components = {assembly_[moving], assembly_[fixed]};
   const Vec3 way = table_.exit_distance(moving, d) * table_.direction(d);
+  CertificateOptions options = options_;
   const auto is_free = [&](double more) {
     ComponentPair pair = *known;
     pair.a = ComponentId(0);
     pair.b = ComponentId(1);
     pair.declared = pair.allowed_depth = known->allowed_depth + more;
-    const CertificateEngine engine(two, {states_.tolerance, {pair}}, options_);
+    const CertificateEngine engine(two, {states_.tolerance, {pair}}, options);
+    options.prepared = engine.surfaces();
     return !engine.straight_contact(pair.a, pair.b, way, StraightSearch::Any);
   };
   if (!is_free(most)) return std::nullopt;

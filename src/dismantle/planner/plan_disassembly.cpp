@@ -89,7 +89,14 @@ class Planner {
       take_out(all, targets_, PlanStep::kWhole);
     }
     take_apart_bodies();
-    explain_left();
+    if (!options_.wants_reasons || options_.wants_reasons(plan_)) {
+      explain_left();
+    } else {
+      for (const auto& [left, present] : left_) {
+        const Span<const ComponentId> group = groups_.of(left);
+        plan_.staying.push_back({left, {group.begin(), group.end()}, {}, {}, {}, {}, {}});
+      }
+    }
     plan_.out_of_time = time_.has_run_out();
     plan_.effort_spent = !plan_.out_of_time && curved_.may_find_more(plan_.staying);
     plan_.joints = joints_;
@@ -99,9 +106,10 @@ class Planner {
   Explanation explain_assembled(ComponentId component) {
     time_.begin_reasons();
     const Span<const DirectionId> directions = choice_.directions()[component.value];
-    Explanation found = explain(table_, component, directions, ComponentSet::all(count_));
-    add_overlap(found, ComponentSet::all(count_));
-    return found;
+    const ComponentSet all = ComponentSet::all(count_);
+    std::vector<Explanation> found{explain(table_, component, directions, all)};
+    add_overlaps(found, {all});
+    return std::move(found.front());
   }
 
  private:
@@ -292,11 +300,18 @@ class Planner {
     return std::nullopt;
   }
 
-  void add_overlap(Explanation& reason, const ComponentSet& present) {
-    if (options_.overlap_limit > 0 && !reason.blockers.empty())
-      reason.overlap = overlaps_.find(reason.component, choice_.directions()[reason.component.value], present,
-                                      options_.overlap_limit, keep_going_);
-    if (!keep_going()) reason.overlap.reset();  // likewise
+  /// Adds by how much a component would have to overlap to come out; several are searched for side by side.
+  /// @param present with each of the reasons
+  void add_overlaps(std::vector<Explanation>& reasons, const std::vector<ComponentSet>& present) {
+    if (!(options_.overlap_limit > 0)) return;
+    std::vector<std::vector<OverlapSearch::Way>> ways(reasons.size());
+    for (std::size_t i = 0; i < reasons.size() && keep_going(); ++i)
+      if (const ComponentId c = reasons[i].component; !reasons[i].blockers.empty())
+        ways[i] = overlaps_.ways_out(c, choice_.directions()[c.value], present[i]);
+    options_.engine.executor.for_each_heavy(reasons.size(), [&](std::size_t i) {
+      std::optional<LeastOverlap> found = overlaps_.find(ways[i], options_.overlap_limit, keep_going_);
+      if (keep_going()) reasons[i].overlap = std::move(found);  // else it may rest on what was not tested
+    });
   }
 
   /// Explains why components are left; what would have to be allowed for them, which takes longer, comes last.
@@ -307,8 +322,9 @@ class Planner {
       if (!keep_going()) return;  // it may rest on relations that were not tested
       plan_.staying.push_back(std::move(reason));
     }
-    for (std::size_t i = 0; i < plan_.staying.size() && keep_going(); ++i)
-      add_overlap(plan_.staying[i], left_[i].second);
+    std::vector<ComponentSet> present;
+    for (const auto& [left, with] : left_) present.push_back(with);
+    add_overlaps(plan_.staying, present);
   }
 
   const Assembly& assembly_;

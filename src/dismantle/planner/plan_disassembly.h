@@ -7,6 +7,7 @@
 #include "dismantle/planner/plan.h"
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace dismantle {
@@ -52,6 +53,9 @@ struct PlanOptions {
   bool margins = false;
   /// The place of threaded fasteners.
   FastenerOrder fasteners = FastenerOrder::First;
+  /// Asked once the steps are found: false leaves out why components stay, which may take as long as the steps;
+  /// Plan::staying then only names them. Empty: with reasons.
+  std::function<bool(const Plan& steps)> wants_reasons{};
 
   /// Multiplies the effort of these searches. @pre times >= 0
   void search_longer(double times) {
