@@ -24,7 +24,7 @@ class OverlapSearch {
 
   /// A direction in which few components block one that is left.
   struct Way {
-    DirectionId direction;
+    DirectionId direction;                                     ///< Its direction.
     std::vector<std::pair<ComponentId, ComponentId>> blocked;  ///< One that moves, and what blocks it.
   };
   /// The ways out of `present` for a component and its group along some of `directions`, those with the fewest blockers
