@@ -31,7 +31,7 @@ constexpr double kSamePlace = 1e-4;
 constexpr double kCellOffset = 0.3819660113;
 /// Cells around which axes are sought: the smallest turn of the edges in one [rad], and how many there are at most.
 constexpr double kMinCell = kQuarterTurn / 16;
-constexpr std::size_t kMaxCells = 256;
+constexpr std::size_t kMaxCells = 4096;
 
 using Cell = std::array<std::int64_t, 6>;
 
