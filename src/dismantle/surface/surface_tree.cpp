@@ -69,7 +69,7 @@ Mat3 flat_axes(const std::vector<Triangle>& triangles) {
       order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
       [&](std::size_t f, std::size_t g) { return std::pair(-faces.area[f], f) < std::pair(-faces.area[g], g); });
   order.resize(count);
-  /// The normal across which most of the surface is; null for none.
+  // The normal across which most of the surface is; null for none.
   const auto best_of = [&](const auto& allowed) {
     Vec3 best;
     double most = 0;
@@ -88,11 +88,9 @@ Mat3 flat_axes(const std::vector<Triangle>& triangles) {
   const Vec3 first = best_of([](Vec3) { return true; });
   if (length_squared(first) == 0) return frame;
   Vec3 second = best_of([&](Vec3 n) { return std::abs(dot(n, first)) < kPerpendicular; });
-  if (length_squared(second) == 0) {
-    const Vec3& least = *std::min_element(
-        frame.row, frame.row + 3, [&](Vec3 a, Vec3 b) { return std::abs(dot(a, first)) < std::abs(dot(b, first)); });
-    second = least;
-  }
+  if (length_squared(second) == 0)
+    second = *std::min_element(frame.row, frame.row + 3,
+                               [&](Vec3 a, Vec3 b) { return std::abs(dot(a, first)) < std::abs(dot(b, first)); });
   const Vec3 third = normalized(cross(first, second));
   const Mat3 turned{{first, cross(third, first), third}};
   const double total = std::accumulate(faces.area.begin(), faces.area.end(), 0.0);
