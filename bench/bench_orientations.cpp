@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What depends on the orientation of an assembly and on the rounding of a file, and should not: each assembly as it
-// is, and turned at random, moved, and rounded to single precision as STL files are.
+// Compares each assembly with copies of itself that are rotated at random, moved, and rounded to single precision, as
+// STL files are: results should depend neither on orientation nor on rounding.
 //   bench_orientations [--orientations N] ASSEMBLY...
-// One row an assembly, tab-separated. pairs: those that touch or overlap in some orientation and for which something is
-// to be kept until they are apart. by_depth: those of them without ghost surfaces, as it is, and the largest number in
-// another orientation. vary: those that have ghost surfaces in some orientations only; their names go to stderr.
-// Processor time of classifying all pairs and of preparing the engine, as it is, and the median when turned.
+// One row per assembly, tab-separated. pairs: pairs that touch or overlap and are guarded until they part, in any
+// orientation. by_depth, by_depth_turned: pairs without ghost surfaces in the original, and the largest number in a
+// copy. vary: pairs that have ghost surfaces in some orientations only; their names go to stderr. The times are
+// processor time, of classifying all pairs and of preparing an engine; for the copies, the median.
 #include "bench/assembly_input.h"
 #include "bench/command_line.h"
 #include "bench/timing.h"
@@ -45,7 +45,7 @@ Assembly turned(Assembly assembly, const Pose& pose) {
   return assembly;
 }
 
-/// What an assembly is in one orientation.
+/// The guards of an assembly in one orientation, and the time to prepare them.
 struct Prepared {
   std::map<PairKey, PairGuard> guards;
   double classify_ms = 0, prepare_ms = 0;

@@ -153,7 +153,7 @@ class Displacing {
   std::vector<std::uint32_t> first_;
   std::vector<std::vector<VectorBound>> bounds_;  // of the first vertex at each position
   std::vector<bool> has_start_;  // for each vertex, if its first bound is the displacement it starts with
-  std::vector<bool> is_new_;     // for each face, if a corner was displaced since it was looked at
+  std::vector<bool> is_new_;     // for each face: a corner was displaced since its pairs were last tested
   std::vector<Vec3> displaced_;
   std::vector<std::uint32_t> changed_;
 };

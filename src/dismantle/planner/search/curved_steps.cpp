@@ -40,8 +40,8 @@ std::optional<PlanStep> CurvedSteps::find_screwed(const ComponentSet& body, cons
   return std::nullopt;
 }
 
-/// True if a thread keeps two components from parting straight along its axis. A wheel on its shaft does not need to be
-/// turned, whatever their faces look like, and turning it would take thousands of steps.
+/// True if a thread keeps two components from parting straight along its axis. The contact faces of a wheel and its
+/// shaft can be mistaken for a thread, and unscrewing the wheel would take thousands of steps.
 bool CurvedSteps::holds(ComponentId c, ComponentId neighbour, Vec3 axis) {
   const auto [known, is_new] = held_.try_emplace({c, neighbour}, true);
   if (!is_new) return known->second;
