@@ -121,8 +121,11 @@ void AssemblySurfaces::prepare_radial(const Executor& executor) {
 
 void AssemblySurfaces::prepare_pairs(const CertificateOptions& options) {
   PairStates left{tolerance(), {}};
+  // Guards whose search was ended are no worse than those of a search that would be ended as well.
+  const bool is_ended = options.keep_going && !options.keep_going();
+  if (is_ended) complete_ = false;
   for (const ComponentPair& pair : pairs_.pairs)
-    if (!take_prepared(pair)) left.pairs.push_back(pair);
+    if (!take_prepared(pair, is_ended)) left.pairs.push_back(pair);
   const KeepGoing keep_going = [&] {
     if (options.keep_going && !options.keep_going()) complete_ = false;
     return complete_.load();
@@ -134,9 +137,9 @@ void AssemblySurfaces::prepare_pairs(const CertificateOptions& options) {
       options.executor);
 }
 
-bool AssemblySurfaces::take_prepared(const ComponentPair& pair) {
+bool AssemblySurfaces::take_prepared(const ComponentPair& pair, bool incomplete_too) {
   const ComponentId a = prepared_as_[pair.a.value], b = prepared_as_[pair.b.value];
-  if (!a.valid() || !b.valid() || !(a < b) || !prepared_->complete_) return false;
+  if (!a.valid() || !b.valid() || !(a < b) || !(prepared_->complete_ || incomplete_too)) return false;
   const ComponentPair* known = prepared_->pairs_.find(a, b);
   if (!known || known->state != pair.state || known->depth != pair.depth || known->declared != pair.declared)
     return false;

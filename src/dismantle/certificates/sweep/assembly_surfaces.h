@@ -78,7 +78,7 @@ class AssemblySurfaces {
   void prepare_radial(const Executor& executor);
   void prepare_pairs(const CertificateOptions& options);
   /// Takes the guard of a pair from those prepared. @return false if it is not known
-  bool take_prepared(const ComponentPair& pair);
+  bool take_prepared(const ComponentPair& pair, bool incomplete_too);
   /// Stores guards and builds the ghost surfaces that belong to single pairs.
   void add_guards(std::vector<FoundGuard> guards, const Executor& executor);
 
