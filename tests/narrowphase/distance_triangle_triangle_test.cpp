@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace dismantle {
 namespace {
@@ -53,6 +54,31 @@ TEST(DistanceTriangleTriangle, KeepsItsAccuracyForNearlyParallelEdges) {
                                    {{{-1.25, 1.25 * tilt, 1e-6}, {1, -tilt, 1e-6}, {0, -0.1, 5}}});
     EXPECT_NEAR(d.distance, 1e-6, 9 * kDistanceRelativeError) << "tilt 2^-" << k;
   }
+}
+
+TEST(TrianglesWithin, AgreesWithTheDistanceOnBothSidesOfIt) {
+  // Random triangles of any shape, also flat ones, coplanar ones and ones that share corners.
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  std::uniform_int_distribution<int> coarse(-2, 2), kind(0, 3);
+  int apart = 0, intersecting = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Triangle a, b;
+    const bool on_grid = kind(random) == 0;
+    for (Triangle* t : {&a, &b})
+      for (int k = 0; k < 3; ++k)
+        for (double* x : {&(*t)[k].x, &(*t)[k].y, &(*t)[k].z}) *x = on_grid ? coarse(random) : coordinate(random);
+    if (kind(random) == 0) b[1] = a[2];
+    if (kind(random) == 0)
+      for (int k = 0; k < 3; ++k) a[k].z = b[k].z = 0;
+    const double distance = distance_triangle_triangle(a, b).distance;
+    EXPECT_TRUE(triangles_within(a, b, distance)) << i;
+    EXPECT_TRUE(triangles_within(a, b, distance + 0.1)) << i;
+    EXPECT_FALSE(triangles_within(a, b, distance - 1e-9)) << i;
+    (distance > 0 ? apart : intersecting) += 1;
+  }
+  EXPECT_GT(apart, 2000);
+  EXPECT_GT(intersecting, 2000);
 }
 
 }  // namespace

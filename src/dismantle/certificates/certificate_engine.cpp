@@ -57,8 +57,12 @@ std::vector<ContactPoint> CertificateEngine::contacts(double reach) const {
   return contacts_of(impl_->sweeper, impl_->sweeper.near_pairs(reach), reach);
 }
 
-std::vector<ContactPoint> CertificateEngine::contacts(ComponentId component, double reach) const {
-  return contacts_of(impl_->sweeper, impl_->sweeper.near_pairs(component, reach), reach);
+std::vector<NearFaces> CertificateEngine::near_faces(ComponentId component, double reach) const {
+  return near_faces_of(impl_->sweeper, impl_->sweeper.near_pairs(component, reach), reach);
+}
+
+ContactPoint CertificateEngine::contact(const NearFaces& faces) const {
+  return contact_of(impl_->sweeper, faces);
 }
 
 Clearance CertificateEngine::clearance(double limit) const {

@@ -104,8 +104,11 @@ class CertificateEngine final : public MotionEngine {
   /// The contacts of the moving set at its pose: all triangle pairs nearer than `reach` [mm], by components and faces.
   /// Empty without a moving set.
   std::vector<ContactPoint> contacts(double reach) const;
-  /// The contacts of one component at its pose, independent of the moving set. Thread-safe.
-  std::vector<ContactPoint> contacts(ComponentId component, double reach) const;
+  /// The faces of one component at its pose, independent of the moving set, with all faces of others within `reach`
+  /// [mm], by components and faces. Thread-safe.
+  std::vector<NearFaces> near_faces(ComponentId component, double reach) const;
+  /// The contact of two faces at the poses of their components. Thread-safe.
+  ContactPoint contact(const NearFaces& faces) const;
   /// The exact distance from the moving set to everything that it may not overlap, if it is below `limit` [mm]; of
   /// components that are equally near, the first. Infinite without a moving set.
   Clearance clearance(double limit = std::numeric_limits<double>::infinity()) const;

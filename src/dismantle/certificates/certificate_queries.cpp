@@ -16,13 +16,44 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-Triangle at(const Triangle& own, const Pose& pose) {
-  const RigidTransform t = transform_from_pose(pose);
+Triangle at(const Triangle& own, const RigidTransform& t) {
   return {{t * own[0], t * own[1], t * own[2]}};
 }
 
-Triangle placed(const CertificateSweeper& sweeper, ComponentId component, FaceId face) {
-  return at(sweeper.solid(component).triangle(face.value), sweeper.poses()[component.value]);
+Triangle at(const Triangle& own, const Pose& pose) {
+  return at(own, transform_from_pose(pose));
+}
+
+/// Gives faces of one component after another at its pose.
+class PlacedFaces {
+ public:
+  explicit PlacedFaces(const CertificateSweeper& sweeper) : sweeper_(sweeper) {}
+  Triangle operator()(ComponentId component, FaceId face) {
+    if (component != last_) {
+      last_ = component;
+      transform_ = transform_from_pose(sweeper_.poses()[component.value]);
+    }
+    return at(sweeper_.solid(component).triangle(face.value), transform_);
+  }
+
+ private:
+  const CertificateSweeper& sweeper_;
+  ComponentId last_;
+  RigidTransform transform_;
+};
+
+/// The contact of two faces, between their closest points; where they intersect, along the shortest way out of each
+/// other, and where they only touch, along the normal of the fixed one.
+ContactPoint contact(const NearFaces& faces, const Triangle& moving, const Triangle& fixed) {
+  const TriangleDistance apart = distance_triangle_triangle(moving, fixed);
+  ContactPoint c{faces.moving, faces.fixed, faces.face_moving, faces.face_fixed, apart.point_a, {}, apart.distance};
+  c.normal = normalized(apart.point_a - apart.point_b);
+  if (apart.distance == 0) {
+    const Penetration depth = penetration_triangle_triangle(moving, fixed);
+    c.normal = depth.depth > 0 ? -depth.axis : normalized(normal_unscaled(fixed));
+    c.gap = -depth.depth;
+  }
+  return c;
 }
 
 /// A component of the moving set and another one, with a lower bound of their distance [mm].
@@ -57,21 +88,28 @@ std::vector<ApartPair> apart_pairs(const CertificateSweeper& sweeper, double lim
 
 std::vector<ContactPoint> contacts_of(const CertificateSweeper& sweeper, Span<const SweepContact> pairs, double reach) {
   std::vector<ContactPoint> contacts;
+  PlacedFaces of_moving(sweeper), of_fixed(sweeper);
   for (const SweepContact& pair : pairs) {
-    const Triangle moving = placed(sweeper, pair.moving, pair.face_moving);
-    const Triangle fixed = placed(sweeper, pair.fixed, pair.face_fixed);
-    const TriangleDistance apart = distance_triangle_triangle(moving, fixed);
-    if (apart.distance > reach) continue;
-    ContactPoint c{pair.moving, pair.fixed, pair.face_moving, pair.face_fixed, apart.point_a, {}, apart.distance};
-    c.normal = normalized(apart.point_a - apart.point_b);
-    if (apart.distance == 0) {
-      const Penetration depth = penetration_triangle_triangle(moving, fixed);
-      c.normal = depth.depth > 0 ? -depth.axis : normalized(normal_unscaled(fixed));
-      c.gap = -depth.depth;
-    }
-    contacts.push_back(c);
+    const Triangle moving = of_moving(pair.moving, pair.face_moving);
+    const Triangle fixed = of_fixed(pair.fixed, pair.face_fixed);
+    if (!triangles_within(moving, fixed, reach)) continue;
+    contacts.push_back(contact({pair.moving, pair.fixed, pair.face_moving, pair.face_fixed}, moving, fixed));
   }
   return contacts;
+}
+
+ContactPoint contact_of(const CertificateSweeper& sweeper, const NearFaces& faces) {
+  return contact(faces, PlacedFaces(sweeper)(faces.moving, faces.face_moving),
+                 PlacedFaces(sweeper)(faces.fixed, faces.face_fixed));
+}
+
+std::vector<NearFaces> near_faces_of(const CertificateSweeper& sweeper, Span<const SweepContact> pairs, double reach) {
+  std::vector<NearFaces> near;
+  PlacedFaces of_moving(sweeper), of_fixed(sweeper);
+  for (const SweepContact& pair : pairs)
+    if (triangles_within(of_moving(pair.moving, pair.face_moving), of_fixed(pair.fixed, pair.face_fixed), reach))
+      near.push_back({pair.moving, pair.fixed, pair.face_moving, pair.face_fixed});
+  return near;
 }
 
 Clearance min_clearance(const CertificateSweeper& sweeper, double limit) {

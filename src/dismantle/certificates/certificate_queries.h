@@ -11,6 +11,12 @@ namespace dismantle {
 /// The result of CertificateEngine::contacts() from CertificateSweeper::near_pairs(), which contain them.
 std::vector<ContactPoint> contacts_of(const CertificateSweeper& sweeper, Span<const SweepContact> pairs, double reach);
 
+/// The result of CertificateEngine::contact().
+ContactPoint contact_of(const CertificateSweeper& sweeper, const NearFaces& faces);
+
+/// The result of CertificateEngine::near_faces() from CertificateSweeper::near_pairs(), which contain them.
+std::vector<NearFaces> near_faces_of(const CertificateSweeper& sweeper, Span<const SweepContact> pairs, double reach);
+
 /// The result of CertificateEngine::clearance().
 Clearance min_clearance(const CertificateSweeper& sweeper, double limit);
 

@@ -38,6 +38,15 @@ struct ContactPoint {
   friend bool operator==(const ContactPoint&, const ContactPoint&) = default;
 };
 
+/// Two faces of different components that are near each other.
+struct NearFaces {
+  ComponentId moving;  ///< The component whose neighbours were asked for.
+  ComponentId fixed;   ///< The other component.
+  FaceId face_moving;  ///< Face of the mesh of `moving`.
+  FaceId face_fixed;   ///< Face of the mesh of `fixed`.
+  friend bool operator==(const NearFaces&, const NearFaces&) = default;
+};
+
 /// The first contact of a candidate motion, which is not carried out.
 struct FirstContact {
   double toi = 1;      ///< The motion is certainly free on [0, toi]; 1 if all of it is.

@@ -5,10 +5,12 @@
 #include "dismantle/math/angle.h"
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -29,6 +31,15 @@ constexpr double kOnCircle = 0.999, kSmallestFacet = 0.965;
 /// ends of a thin plate lie on a circle, too.
 constexpr double kShareOfCircle = 0.3;
 constexpr std::size_t kParts = 72;
+
+/// The tangents of the angles between the parts of a quarter of a circle.
+constexpr std::size_t kQuarter = kParts / 4;
+std::array<double, kQuarter - 1> tangents_of_parts() {
+  std::array<double, kQuarter - 1> tangents;
+  for (std::size_t k = 0; k < tangents.size(); ++k)
+    tangents[k] = std::tan(static_cast<double>(k + 1) * kTurn / static_cast<double>(kParts));
+  return tangents;
+}
 
 class Turning {
  public:
@@ -51,13 +62,13 @@ class Turning {
  private:
   /// A face in coordinates about an axis.
   struct Facet {
-    Vec3 across[3];                    // of its corners
     double along[3];                   // of its corners [mm]
     double nearest = 0, farthest = 0;  // distances from the axis [mm]
     double on_circle = 0;              // that of the second farthest corner [mm]
     bool is_shaft = false;             // its normal points away from the axis
 
     Facet(const AxisFrame& axis, const Triangle& t, const Vec3& normal) {
+      Vec3 across[3];
       for (int i = 0; i < 3; ++i) {
         across[i] = axis.across(t[i]);
         along[i] = axis.along(t[i]);
@@ -77,20 +88,9 @@ class Turning {
     std::vector<std::uint32_t> faces;
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0;  // from the axis [mm]
     double begin = nearest, end = -nearest;                                  // along the axis [mm]
-    std::bitset<kParts> seen;                                                // of the circle
 
-    bool is_round() const { return static_cast<double>(seen.count()) >= kShareOfCircle * kParts; }
-    void add(const AxisFrame& axis, std::uint32_t face, const Facet& facet) {
+    void add(std::uint32_t face, const Facet& facet) {
       faces.push_back(face);
-      std::size_t parts[3];
-      for (int i = 0; i < 3; ++i) parts[i] = part_of(axis, facet.across[i]);
-      for (int i = 0; i < 3; ++i) {
-        const int next = (i + 1) % 3;
-        seen.set(parts[i]);
-        // Most facets have their corners in one part, or in two beside each other.
-        const std::size_t apart = parts[i] > parts[next] ? parts[i] - parts[next] : parts[next] - parts[i];
-        if (apart > 1 && apart < kParts - 1) see(axis, facet.across[i], facet.across[next]);
-      }
       nearest = std::min(nearest, facet.nearest);
       farthest = std::max(farthest, facet.farthest);
       for (const double at : facet.along) {
@@ -98,18 +98,51 @@ class Turning {
         end = std::max(end, at);
       }
     }
-    /// Adds the part of the circle between two points of it, the short way round.
-    void see(const AxisFrame& axis, const Vec3& from, const Vec3& to) {
-      constexpr int kSteps = 8;
-      for (int i = 0; i <= kSteps; ++i) {
-        const double share = static_cast<double>(i) / kSteps;
-        seen.set(part_of(axis, (1 - share) * from + share * to));
+    /// True if the facets cover enough of the circle. Found out when it is first asked, as most cylinders never are.
+    bool is_round(const AxisFrame& axis, const SolidTree& tree) const {
+      if (!round_) {
+        std::bitset<kParts> seen;
+        for (const std::uint32_t f : faces) see(axis, tree.triangle(f), seen);
+        round_ = static_cast<double>(seen.count()) >= kShareOfCircle * kParts;
+      }
+      return *round_;
+    }
+
+   private:
+    /// Marks the parts of the circle that a facet covers.
+    static void see(const AxisFrame& axis, const Triangle& facet, std::bitset<kParts>& seen) {
+      Vec3 across[3];
+      std::size_t parts[3];
+      for (int i = 0; i < 3; ++i) {
+        across[i] = axis.across(facet[i]);
+        parts[i] = part_of(axis, across[i]);
+        seen.set(parts[i]);
+      }
+      for (int i = 0; i < 3; ++i) {
+        // Most facets have their corners in one part, or in two beside each other.
+        const int next = (i + 1) % 3;
+        const std::size_t apart = parts[i] > parts[next] ? parts[i] - parts[next] : parts[next] - parts[i];
+        if (apart <= 1 || apart >= kParts - 1) continue;
+        constexpr int kSteps = 8;  // along the chord, the short way round
+        for (int k = 1; k < kSteps; ++k) {
+          const double share = static_cast<double>(k) / kSteps;
+          seen.set(part_of(axis, (1 - share) * across[i] + share * across[next]));
+        }
       }
     }
+    /// The part of the circle in whose direction a point lies.
     static std::size_t part_of(const AxisFrame& axis, const Vec3& p) {
-      const double part = (axis.angle(p) / kTurn + 0.5) * kParts;
-      return std::min(kParts - 1, static_cast<std::size_t>(std::max(0.0, part)));
+      static const std::array<double, kQuarter - 1> kTangents = tangents_of_parts();
+      const double x = dot(p, axis.first), y = dot(p, axis.second);
+      const std::size_t quarter = y >= 0 ? (x > 0 ? 0 : 1) : (x < 0 ? 2 : 3);
+      const bool even = quarter % 2 == 0;
+      const double along = std::abs(even ? x : y), across = std::abs(even ? y : x);  // from where the quarter begins
+      std::size_t part = 0;
+      for (const double tangent : kTangents) part += across >= tangent * along;
+      return quarter * kQuarter + part;
     }
+
+    mutable std::optional<bool> round_;
   };
   /// By the radius in tolerances, negative for a bore.
   using Cylinders = std::map<double, Cylinder>;
@@ -128,7 +161,7 @@ class Turning {
         continue;
       }
       const double radius = std::round(facet.farthest / tolerance_);
-      cylinders[facet.is_shaft ? radius : -radius].add(axis, f, facet);
+      cylinders[facet.is_shaft ? radius : -radius].add(f, facet);
     }
     for (auto& [radius, cylinder] : cylinders) add_parts(axis, tree, others, radius > 0, cylinder);
     return cylinders;
@@ -137,7 +170,7 @@ class Turning {
   /// Adds faces between the chords and the circle of a cylinder that share corners with its facets.
   static void add_parts(const AxisFrame& axis, const SolidTree& tree,
                         std::vector<std::pair<std::uint32_t, Facet>>& others, bool is_shaft, Cylinder& cylinder) {
-    if (others.empty() || !cylinder.is_round()) return;
+    if (others.empty() || !cylinder.is_round(axis, tree)) return;
     std::set<std::uint32_t> corners;
     for (const std::uint32_t f : cylinder.faces) corners.insert(std::begin(tree.faces[f].v), std::end(tree.faces[f].v));
     for (bool more = true; more;) {
@@ -148,7 +181,7 @@ class Turning {
             facet.nearest < kSmallestFacet * cylinder.farthest ||
             std::none_of(std::begin(v), std::end(v), [&](std::uint32_t corner) { return corners.count(corner) > 0; }))
           continue;
-        cylinder.add(axis, f, facet);
+        cylinder.add(f, facet);
         corners.insert(std::begin(v), std::end(v));
         facet.farthest = std::numeric_limits<double>::infinity();  // it is taken
         more = true;
@@ -158,16 +191,16 @@ class Turning {
 
   void allow_turning(const AxisFrame& axis) {
     const Cylinders mine = cylinders_about(axis, own_);
-    if (std::none_of(mine.begin(), mine.end(), [](const auto& cylinder) { return cylinder.second.is_round(); })) return;
+    if (mine.empty()) return;
     const Cylinders theirs = cylinders_about(axis, other_);
     for (const auto& [mine_radius, f] : mine)
       for (const auto& [their_radius, g] : theirs) {
         if (mine_radius * their_radius > 0 || f.end < g.begin || g.end < f.begin) continue;
-        if (!f.is_round() || !g.is_round()) continue;
         const Cylinder &shaft = mine_radius > 0 ? f : g, &bore = mine_radius > 0 ? g : f;
         const double overlap = shaft.farthest - bore.nearest;
         const double sagittas = (shaft.farthest - shaft.nearest) + (bore.farthest - bore.nearest);
         if (overlap <= 0 || overlap > depth_ + sagittas + tolerance_) continue;
+        if (!f.is_round(axis, own_) || !g.is_round(axis, other_)) continue;
         found_.largest = std::max(found_.largest, overlap);
         for (const std::uint32_t face : f.faces) found_.needed[face] = std::max(found_.needed[face], overlap);
       }

@@ -38,11 +38,12 @@ Vec3 assembled_area(const Component& component, FaceId face) {
   return component.assembly_from_mesh.rotation * (0.5 * normal_unscaled(component.mesh->triangle(face.value)));
 }
 
-ContactNormals gather(const Assembly& assembly, const std::vector<ContactPoint>& contacts) {
+ContactNormals gather(const Assembly& assembly, const CertificateEngine& engine,
+                      const std::vector<NearFaces>& contacts) {
   DirectionClusters facing(Sense::Directed), other(Sense::Directed);
   std::map<ComponentId, DirectionClusters> facing_of;
   ContactNormals result;
-  for (const ContactPoint& c : contacts) {
+  for (const NearFaces& c : contacts) {
     const Vec3 moving = assembled_area(assembly[c.moving], c.face_moving);
     const Vec3 fixed = assembled_area(assembly[c.fixed], c.face_fixed);
     const double area_moving = length(moving), area_fixed = length(fixed);
@@ -53,8 +54,8 @@ ContactNormals gather(const Assembly& assembly, const std::vector<ContactPoint>&
       const Vec3 normal = area_moving > area_fixed ? -moving : fixed;
       facing.add(normal, weight);
       facing_of.try_emplace(c.fixed, Sense::Directed).first->second.add(normal, weight);
-    } else if (length(c.normal) > 0) {
-      other.add(c.normal, kEdgeWeight * weight);
+    } else if (const Vec3 normal = engine.contact(c).normal; length(normal) > 0) {
+      other.add(normal, kEdgeWeight * weight);
     }
   }
   result.facing = facing.heaviest(4 * kMaxPaired);
@@ -164,12 +165,12 @@ Vec3 snapped(const Vec3& axis, const ShapeFeatures& features) {
 
 ContactNormals contact_normals(const PlannedAssembly& planned, const CertificateEngine& engine, ComponentId component) {
   const double most = kLargestReach * planned.features[component.value].radius;
-  std::vector<ContactPoint> contacts;
+  std::vector<NearFaces> contacts;
   for (double reach = kFirstReach * planned.tolerance; contacts.size() < kEnoughContacts; reach *= kReachGrowth) {
-    contacts = engine.contacts(component, reach);
+    contacts = engine.near_faces(component, reach);
     if (reach > most) break;
   }
-  return gather(planned.assembly, contacts);
+  return gather(planned.assembly, engine, contacts);
 }
 
 std::vector<ComponentId> neighbours_against(const ContactNormals& contacts, const Vec3& direction) {
