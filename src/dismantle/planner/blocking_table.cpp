@@ -36,6 +36,7 @@ BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFe
       keep_going_(std::move(keep_going)),
       spheres_(sphere_tree(features)),
       rows_(features.size()),
+      row_mutexes_(features.size()),
       last_blockers_(features.size()),
       together_(features.size()),
       blocked_by_(features.size()) {}
@@ -64,6 +65,7 @@ BlockingTable::Known* BlockingTable::Row::find(ComponentId c) {
 }
 
 BlockingTable::Row& BlockingTable::row(ComponentId moving, DirectionId d) {
+  const std::lock_guard lock(row_mutexes_[moving.value]);
   auto [place, is_new] = rows_[moving.value].try_emplace(d);
   if (is_new) place->second = new_row(moving, d);
   return place->second;

@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -142,8 +143,8 @@ class BlockingTable {
   std::map<std::array<std::int64_t, 3>, std::vector<DirectionId>> cells_;  // of directions, for those that are equal
   std::map<std::pair<ComponentId, ComponentId>, Vec3> only_along_;         // a < b
   SphereTree spheres_;                                                     // of all components
-  std::vector<std::map<DirectionId, Row>>
-      rows_;  // of every component: rows of different ones may be asked side by side
+  std::vector<std::map<DirectionId, Row>> rows_;         // of every component: several may be asked side by side
+  std::vector<std::mutex> row_mutexes_;                  // of every component: held while a row is made
   std::vector<std::vector<ComponentId>> last_blockers_;  // of every component, in any direction; the last first
   // Of moving_together():
   ComponentSet together_;

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace dismantle {
 
@@ -50,49 +50,66 @@ StraightContact first_contact(const BlockingTable& table, Span<const ComponentId
   return first.value_or(StraightContact{});
 }
 
-/// The distance to the first contact with a blocker, approximately [mm].
-double way_to_first(const BlockingTable& table, Span<const ComponentId> group, DirectionId d,
-                    const std::vector<ComponentId>& blockers) {
-  double way = std::numeric_limits<double>::infinity();
-  for (const ComponentId blocker : blockers) way = std::min(way, first_contact(table, group, d, blocker).distance);
-  return way;
+/// The blockers of a group along a direction, with where it meets them, the nearest first.
+std::vector<Blocker> blockers_met(const BlockingTable& table, Span<const ComponentId> group, DirectionId d,
+                                  const std::vector<ComponentId>& blockers) {
+  std::vector<Blocker> met;
+  met.reserve(blockers.size());
+  for (const ComponentId blocker : blockers) met.push_back({blocker, first_contact(table, group, d, blocker)});
+  std::stable_sort(met.begin(), met.end(),
+                   [](const Blocker& a, const Blocker& b) { return a.contact.distance < b.contact.distance; });
+  return met;
+}
+
+/// The directions with the fewest blockers, and these. No more blockers are looked for along any than it takes to know.
+std::vector<std::pair<DirectionId, std::vector<ComponentId>>> least_blocked(BlockingTable& table,
+                                                                            Span<const ComponentId> group,
+                                                                            Span<const DirectionId> directions,
+                                                                            const ComponentSet& others,
+                                                                            const Executor& executor) {
+  std::vector<std::vector<ComponentId>> blockers(directions.size());
+  for (std::size_t count = 0;; ++count) {
+    executor.for_each_heavy(directions.size(), [&](std::size_t i) {
+      blockers[i] = blockers_of(table, group, directions[i], others, count + 1);
+    });
+    std::vector<std::pair<DirectionId, std::vector<ComponentId>>> least;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      if (blockers[i].size() <= count) least.emplace_back(directions[i], std::move(blockers[i]));
+    if (!least.empty()) return least;
+  }
 }
 
 }  // namespace
 
-Explanation explain(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
-                    const ComponentSet& present) {
+BlockedWay least_blocked_way(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
+                             const ComponentSet& present, const Executor& executor) {
   DISMANTLE_EXPECT(!directions.empty());
   const Span<const ComponentId> group = table.groups().of(component);
   ComponentSet others = present;
   others.erase(group);
-  DirectionId best;
-  std::vector<ComponentId> fewest;
+  BlockedWay best;
   double furthest = 0;
-  for (const DirectionId d : directions) {
-    const std::size_t enough = best.valid() ? fewest.size() + 1 : present.size();
-    std::vector<ComponentId> blockers = blockers_of(table, group, d, others, enough);
-    if (best.valid() && blockers.size() > fewest.size()) continue;
-    const double free_way = way_to_first(table, group, d, blockers);
-    if (best.valid() && blockers.size() == fewest.size() && free_way <= kClearlyFurther * furthest) continue;
-    best = d;
-    fewest = std::move(blockers);
+  for (const auto& [direction, ids] : least_blocked(table, group, directions, others, executor)) {
+    std::vector<Blocker> blockers = blockers_met(table, group, direction, ids);
+    const double free_way = blockers.empty() ? 0 : blockers.front().contact.distance;
+    if (best.direction.valid() && free_way <= kClearlyFurther * furthest) continue;
+    best = {direction, std::move(blockers)};
     furthest = free_way;
   }
+  return best;
+}
 
+Explanation explain(BlockingTable& table, ComponentId component, BlockedWay way, const ComponentSet& present) {
+  const Span<const ComponentId> group = table.groups().of(component);
   Explanation found{component,
                     {group.begin(), group.end()},
-                    table.direction(best),
-                    {},
-                    table.moving_together(component, best, present),
+                    table.direction(way.direction),
+                    std::move(way.blockers),
+                    table.moving_together(component, way.direction, present),
                     {},
                     {}};
-  for (const ComponentId blocker : fewest)
-    found.blockers.push_back({blocker, first_contact(table, group, best, blocker)});
-  std::stable_sort(found.blockers.begin(), found.blockers.end(),
-                   [](const Blocker& a, const Blocker& b) { return a.contact.distance < b.contact.distance; });
   for (const ComponentId other : found.together) {
-    const std::vector<ComponentId> back = table.moving_together(other, best, present);
+    const std::vector<ComponentId> back = table.moving_together(other, way.direction, present);
     if (std::find(back.begin(), back.end(), component) != back.end()) found.locked.push_back(other);
   }
   return found;

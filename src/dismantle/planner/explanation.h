@@ -8,13 +8,23 @@
 
 namespace dismantle {
 
-/// Explains what blocks the straight removal of a component, with its group, from `present`: along the direction with
-/// the fewest blockers, and of equal ones the first along which it gets clearly further. Without blockers it can be
-/// removed.
-/// Relations that the table does not test any more, since its search ended, count as blocking.
+/// A direction, and what blocks a component along it.
+struct BlockedWay {
+  DirectionId direction;
+  std::vector<Blocker> blockers;  ///< Nearest first.
+};
+
+/// The direction along which the fewest of `present` block a component with its group, and of equal ones the first
+/// along which it gets clearly further. Relations that the table does not test any more, since its search ended, count
+/// as blocking.
+/// @param executor runs the directions; the result does not depend on it
 /// @pre directions is not empty
-Explanation explain(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
-                    const ComponentSet& present);
+BlockedWay least_blocked_way(BlockingTable& table, ComponentId component, Span<const DirectionId> directions,
+                             const ComponentSet& present, const Executor& executor);
+
+/// Explains what blocks the straight removal of a component, with its group, from `present` along its least blocked
+/// way. Without blockers it can be removed.
+Explanation explain(BlockingTable& table, ComponentId component, BlockedWay way, const ComponentSet& present);
 
 /// "+Z" or "-X" for a coordinate axis (within a thousandth), else "(0.577, -0.577, 0.577)".
 std::string direction_text(const Vec3& unit);

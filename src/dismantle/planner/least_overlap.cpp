@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace dismantle {
 
@@ -39,11 +40,13 @@ std::vector<OverlapSearch::Way> OverlapSearch::ways_out(ComponentId component, S
 std::optional<LeastOverlap> OverlapSearch::find(const std::vector<Way>& ways, double most,
                                                 const KeepGoing& keep_going) const {
   std::optional<LeastOverlap> best;
+  std::map<std::pair<ComponentId, ComponentId>, std::shared_ptr<const AssemblySurfaces>> prepared;
   for (const Way& way : ways) {
     LeastOverlap found{table_.direction(way.direction), 0, {}};
     for (const auto& [member, blocker] : way.blocked) {
       if (!keep_going()) return best;
-      const auto pair = needed(member, way.direction, blocker, best ? best->more : most, keep_going);
+      const auto pair =
+          needed(member, way.direction, blocker, best ? best->more : most, keep_going, prepared[{member, blocker}]);
       if (!pair) break;
       found.more = std::max(found.more, pair->more);
       found.pairs.push_back(*pair);
@@ -57,13 +60,15 @@ std::optional<LeastOverlap> OverlapSearch::find(const std::vector<Way>& ways, do
 }
 
 std::optional<NeededOverlap> OverlapSearch::needed(ComponentId moving, DirectionId d, ComponentId fixed, double most,
-                                                   const KeepGoing& keep_going) const {
+                                                   const KeepGoing& keep_going,
+                                                   std::shared_ptr<const AssemblySurfaces>& prepared) const {
   const ComponentPair* known = states_.find(moving, fixed);
   if (!known || (known->state != PairState::Contact && known->state != PairState::Overlapping)) return std::nullopt;
   Assembly two;
   two.components = {assembly_[moving], assembly_[fixed]};
   const Vec3 way = table_.exit_distance(moving, d) * table_.direction(d);
   CertificateOptions options = options_;
+  options.prepared = prepared;
   const auto is_free = [&](double more) {
     ComponentPair pair = *known;
     pair.a = ComponentId(0);
@@ -71,6 +76,7 @@ std::optional<NeededOverlap> OverlapSearch::needed(ComponentId moving, Direction
     pair.declared = pair.allowed_depth = known->allowed_depth + more;
     const CertificateEngine engine(two, {states_.tolerance, {pair}}, options);
     options.prepared = engine.surfaces();
+    if (!prepared) prepared = engine.surfaces();
     return !engine.straight_contact(pair.a, pair.b, way, StraightSearch::Any);
   };
   if (!is_free(most)) return std::nullopt;

@@ -5,6 +5,7 @@
 #include "dismantle/planner/blocking_table.h"
 #include "dismantle/planner/plan.h"
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -18,7 +19,7 @@ class OverlapSearch {
   OverlapSearch(const Assembly& assembly, const PairStates& states, BlockingTable& table,
                 const CertificateOptions& options)
       : assembly_(assembly), states_(states), table_(table), options_(options) {
-    options_.prepared = nullptr;  // shapes keep what is found for each depth that is tried: no longer than a search
+    options_.prepared = nullptr;  // shapes keep what is found for each depth that is tried: no longer than find()
     options_.executor = {};       // components are searched side by side
   }
 
@@ -37,8 +38,10 @@ class OverlapSearch {
   std::optional<LeastOverlap> find(const std::vector<Way>& ways, double most, const KeepGoing& keep_going) const;
 
  private:
+  /// @param prepared the surfaces of the pair; null before the first search
   std::optional<NeededOverlap> needed(ComponentId moving, DirectionId d, ComponentId fixed, double most,
-                                      const KeepGoing& keep_going) const;
+                                      const KeepGoing& keep_going,
+                                      std::shared_ptr<const AssemblySurfaces>& prepared) const;
 
   const Assembly& assembly_;
   const PairStates& states_;

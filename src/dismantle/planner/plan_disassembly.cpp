@@ -105,9 +105,8 @@ class Planner {
   }
   Explanation explain_assembled(ComponentId component) {
     time_.begin_reasons();
-    const Span<const DirectionId> directions = choice_.directions()[component.value];
     const ComponentSet all = ComponentSet::all(count_);
-    std::vector<Explanation> found{explain(table_, component, directions, all)};
+    std::vector<Explanation> found{explained(component, all)};
     add_overlaps(found, {all});
     return std::move(found.front());
   }
@@ -314,16 +313,22 @@ class Planner {
     });
   }
 
+  Explanation explained(ComponentId component, const ComponentSet& present) {
+    const Span<const DirectionId> directions = choice_.directions()[component.value];
+    BlockedWay way = least_blocked_way(table_, component, directions, present, options_.engine.executor);
+    return explain(table_, component, std::move(way), present);
+  }
+
   /// Explains why components are left; what would have to be allowed for them, which takes longer, comes last.
   void explain_left() {
     time_.begin_reasons();
-    for (const auto& [left, present] : left_) {
-      Explanation reason = explain(table_, left, choice_.directions()[left.value], present);
+    std::vector<ComponentSet> present;
+    for (const auto& [left, with] : left_) {
+      Explanation reason = explained(left, with);
       if (!keep_going()) return;  // it may rest on relations that were not tested
       plan_.staying.push_back(std::move(reason));
+      present.push_back(with);
     }
-    std::vector<ComponentSet> present;
-    for (const auto& [left, with] : left_) present.push_back(with);
     add_overlaps(plan_.staying, present);
   }
 

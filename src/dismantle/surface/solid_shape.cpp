@@ -11,13 +11,33 @@
 
 namespace dismantle {
 
-struct SolidShape::Regions {
-  std::mutex mutex;
-  std::map<double, std::unique_ptr<const ThinPlaces>> thin_places;
-  std::map<std::pair<double, double>, std::unique_ptr<const ShallowRegion>> of_limits;
-};
-
 namespace {
+
+/// Values by keys, each made when it is first wanted, by any thread: others wait only for the value that they want.
+template <class Key, class Value>
+class MadeOnce {
+ public:
+  /// @param make() gives a std::unique_ptr
+  template <class Make>
+  const Value& get(const Key& key, const Make& make) {
+    Entry& entry = entry_of(key);
+    std::call_once(entry.once, [&] { entry.value = make(); });
+    return *entry.value;
+  }
+
+ private:
+  struct Entry {
+    std::once_flag once;
+    std::unique_ptr<const Value> value;
+  };
+  Entry& entry_of(const Key& key) {
+    const std::lock_guard lock(mutex_);
+    return entries_[key];
+  }
+
+  std::mutex mutex_;
+  std::map<Key, Entry> entries_;
+};
 
 std::vector<Vec3> vertex_of_each_shell(const TriangleMesh& mesh) {
   ConnectedSets shells(mesh.vertices.size());
@@ -30,6 +50,11 @@ std::vector<Vec3> vertex_of_each_shell(const TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+struct SolidShape::Regions {
+  MadeOnce<double, ThinPlaces> thin_places;
+  MadeOnce<std::pair<double, double>, ShallowRegion> of_limits;
+};
 
 SolidShape::SolidShape() = default;
 SolidShape::SolidShape(SolidShape&&) noexcept = default;
@@ -50,19 +75,14 @@ const ShallowRegion& SolidShape::shallow_region(double limit) const {
 }
 
 const ShallowRegion& SolidShape::far_region(double limit, double far_limit) const {
-  const SurfaceTree* thick = far_limit < limit ? thin_places(limit).thick_faces() : nullptr;
-  const std::lock_guard lock(regions_->mutex);
-  std::unique_ptr<const ShallowRegion>& region = regions_->of_limits[{limit, far_limit}];
-  if (!region)
-    region = std::make_unique<const ShallowRegion>(*surface_, *winding_, far_limit, DeeperFaces{thick, limit});
-  return *region;
+  return regions_->of_limits.get({limit, far_limit}, [&] {
+    const SurfaceTree* thick = far_limit < limit ? thin_places(limit).thick_faces() : nullptr;
+    return std::make_unique<const ShallowRegion>(*surface_, *winding_, far_limit, DeeperFaces{thick, limit});
+  });
 }
 
 const ThinPlaces& SolidShape::thin_places(double limit) const {
-  const std::lock_guard lock(regions_->mutex);
-  std::unique_ptr<const ThinPlaces>& places = regions_->thin_places[limit];
-  if (!places) places = std::make_unique<const ThinPlaces>(*this, limit);
-  return *places;
+  return regions_->thin_places.get(limit, [&] { return std::make_unique<const ThinPlaces>(*this, limit); });
 }
 
 }  // namespace dismantle

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/certificates/ghosts/find_guards.h"
 
+#include "dismantle/surface/depth/nowhere_deeper.h"
 #include "dismantle/surface/depth/stays_whole.h"
 #include "dismantle/surface/depth/thin_places.h"
 #include "dismantle/surface/solid_distance.h"
@@ -62,8 +63,8 @@ void limit_far_points(GuardedPair& guard, const BoundedSide& a, const BoundedSid
                       double tolerance) {
   const double limit = guard.allowed - kArcShare * tolerance;
   const auto limit_in = [&](const BoundedSide& outer, const BoundedSide& inner, std::size_t of_inner) {
-    const ThinPlaces& thin = outer.shape.thin_places(limit);
-    const bool is_limit = thin.everywhere() || (!thin.none() && far_allowed < guard.allowed);
+    const bool is_less = far_allowed < guard.allowed;
+    const bool is_limit = is_less ? !outer.shape.thin_places(limit).none() : is_nowhere_deeper(outer.shape, limit);
     guard.far_allowed[of_inner] = is_limit ? far_allowed : kUnlimited;
     if (!is_limit) return;
     const double finest = std::max(tolerance, kFinest * depth);

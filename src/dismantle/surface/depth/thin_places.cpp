@@ -94,7 +94,7 @@ class OppositeFaces {
       const std::uint32_t g = bvh.leaf_triangle[node];
       const PlaneFace& other = faces_[g];
       if (face.is_above(other.triangle) && other.is_above(face.triangle) &&
-          distance_triangle_triangle(face.triangle, other.triangle).distance <= 2 * limit_)
+          triangles_within(face.triangle, other.triangle, 2 * limit_))
         return g;
     }
     return std::nullopt;
