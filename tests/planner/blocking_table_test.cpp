@@ -63,10 +63,17 @@ TEST_F(BlockingTableTest, FindsWhatGoesTogether) {
   EXPECT_EQ(table_.moving_together(kMiddle, up(), all_), (std::vector{kMiddle, kHigh}));
   EXPECT_EQ(table_.moving_together(kMiddle, aside(), all_), (std::vector{kTube, kLow, kMiddle, kHigh}));
   ComponentSet ends(4, {&kHigh, 1});
-  EXPECT_TRUE(table_.moving_together(kMiddle, up(), all_, ends, 4).empty());
+  BlockingTable::Together memory(4);
+  EXPECT_TRUE(table_
+                  .moving_together(
+                      kMiddle, up(), all_, ends, [] { return 4; }, memory)
+                  .empty());
   EXPECT_EQ(ends.members(), (std::vector{kMiddle, kHigh})) << "the middle one cannot leave without the high one";
   ComponentSet large(4);
-  EXPECT_TRUE(table_.moving_together(kLow, up(), all_, large, 2).empty());
+  EXPECT_TRUE(table_
+                  .moving_together(
+                      kLow, up(), all_, large, [] { return 2; }, memory)
+                  .empty());
   EXPECT_EQ(large.members(), std::vector{kLow}) << "two of the three can leave";
 }
 

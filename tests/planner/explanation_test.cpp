@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/explanation.h"
 
+#include "tests/planner/blocking_relations.h"
 #include "tests/planner/plan_scenes.h"
 
 #include <gtest/gtest.h>
@@ -45,6 +46,39 @@ TEST(Explanation, TellsWhatLocksEachOther) {
   const Explanation e = why(chain, "link");
   EXPECT_EQ(e.locked.size(), 2u);
   EXPECT_NE(explanation_text(chain, e).find("locked with {next link}"), std::string::npos);
+}
+
+using LeastBlockedWayTest = scenes::RelationsTest;
+
+TEST_F(LeastBlockedWayTest, HasTheFewestBlockersOfAllDirectionsOnAnyExecutor) {
+  std::mt19937_64 random(5);
+  const std::uint32_t count = 9;
+  std::size_t most = 0;
+  for (int round = 0; round < 40; ++round) {
+    const scenes::Relations relations = scenes::random_relations(count, 3, random);
+    make(count, relations);
+    const ComponentId component(static_cast<std::uint32_t>(random() % count));
+    ComponentSet present = ComponentSet::all(count);
+    present.erase(ComponentId((component.value + 1) % count));
+    std::size_t fewest = count;
+    for (const auto& direction : relations)
+      fewest = std::min(
+          fewest, static_cast<std::size_t>(std::count_if(direction.begin(), direction.end(), [&](const auto& pair) {
+            return pair.first == component.value && present.has(ComponentId(pair.second));
+          })));
+    const std::vector<DirectionId>& directions = directions_[component.value];
+    const BlockedWay serial = least_blocked_way(*table_, component, directions, present, Executor());
+    EXPECT_EQ(serial.blockers.size(), fewest) << round;
+    for (const Executor& executor : {Executor(ExecutorKind::Threads, 4), Executor(ExecutorKind::Shuffled)}) {
+      make(count, relations);  // nothing is known yet
+      const BlockedWay way = least_blocked_way(*table_, component, directions, present, executor);
+      EXPECT_EQ(way.direction, serial.direction) << round;
+      ASSERT_EQ(way.blockers.size(), fewest) << round;
+      for (std::size_t i = 0; i < fewest; ++i) EXPECT_EQ(way.blockers[i].component, serial.blockers[i].component);
+    }
+    most = std::max(most, fewest);
+  }
+  EXPECT_GT(most, 1u) << "some must be blocked by several along every direction";
 }
 
 TEST(Explanation, SpeaksOfAGroupAsOfOnePart) {

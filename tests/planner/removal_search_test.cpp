@@ -63,10 +63,55 @@ TEST_F(RemovalSearchTest, FindsNothingIfTheTargetIsLocked) {
 
 TEST_F(RemovalSearchTest, TakesOutTogetherWhatLocksEachOther) {
   make(3, {{{0, 1}, {1, 0}}});
-  const auto body =
-      smallest_body(*table_, directions_, ComponentSet::all(3), ComponentSet(3, std::vector{ComponentId(2)}), kAlways);
+  const auto body = smallest_body(*table_, directions_, ComponentSet::all(3),
+                                  ComponentSet(3, std::vector{ComponentId(2)}), Executor(), kAlways);
   ASSERT_TRUE(body);
   EXPECT_EQ(body->components, (std::vector{ComponentId(0), ComponentId(1)}));
+}
+
+TEST_F(RemovalSearchTest, FindsTheSmallestBodyOnAnyExecutor) {
+  std::mt19937_64 random(8);
+  const std::uint32_t count = 8;
+  int of_several = 0;
+  for (int round = 0; round < 80; ++round) {
+    // Along each direction, sets of two to four block each other in a circle, and some of others that come after them.
+    scenes::Relations relations = scenes::random_relations(count, 4, random);
+    for (auto& direction : relations) {
+      std::vector<std::uint32_t> order(count);
+      for (std::uint32_t k = 0; k < count; ++k) order[k] = k;
+      std::shuffle(order.begin(), order.end(), random);
+      std::erase_if(direction, [&](const auto&) { return random() % 4 != 0; });
+      for (std::uint32_t begin = 0, end; begin < count; begin = end) {
+        end = std::min<std::uint32_t>(count, begin + 2 + static_cast<std::uint32_t>(random() % 3));
+        if (end + 1 == count) end = count;
+        for (std::uint32_t k = begin; k < end; ++k)
+          direction.emplace_back(order[k], order[k + 1 < end ? k + 1 : begin]);
+      }
+    }
+    make(count, relations);
+    const ComponentSet all = ComponentSet::all(count), none(count);
+    if (!free_components(*table_, directions_, all, none, Executor(), kAlways).empty()) continue;
+
+    std::size_t least = count;
+    for (const auto& direction : relations)
+      for (std::uint32_t mask = 1; mask + 1 < 1u << count; ++mask)
+        if (std::all_of(direction.begin(), direction.end(), [&](const auto& pair) {
+              return (mask >> pair.first & 1) == 0 || (mask >> pair.second & 1) == 1;
+            }))
+          least = std::min(least, static_cast<std::size_t>(__builtin_popcount(mask)));
+
+    const auto serial = smallest_body(*table_, directions_, all, none, Executor(), kAlways);
+    EXPECT_EQ(serial ? serial->components.size() : count, least) << round;
+    for (const Executor& executor : {Executor(ExecutorKind::Threads, 4), Executor(ExecutorKind::Shuffled)}) {
+      const auto found = smallest_body(*table_, directions_, all, none, executor, kAlways);
+      ASSERT_EQ(found.has_value(), serial.has_value()) << round;
+      if (!found) continue;
+      EXPECT_EQ(found->components, serial->components) << round;
+      EXPECT_EQ(found->direction, serial->direction) << round;
+    }
+    of_several += serial.has_value();
+  }
+  EXPECT_GT(of_several, 20) << "many of these must have a body that can be removed";
 }
 
 TEST_F(RemovalSearchTest, NeverTakesOutMoreThanTheOptimum) {

@@ -37,9 +37,7 @@ BlockingTable::BlockingTable(const CertificateEngine& engine, Span<const ShapeFe
       spheres_(sphere_tree(features)),
       rows_(features.size()),
       row_mutexes_(features.size()),
-      last_blockers_(features.size()),
-      together_(features.size()),
-      blocked_by_(features.size()) {}
+      last_blockers_(features.size()) {}
 
 DirectionId BlockingTable::add_direction(const Vec3& unit) {
   const auto [x, y, z] = cell_of(unit);
@@ -247,21 +245,26 @@ std::vector<ComponentId> BlockingTable::blockers(ComponentId moving, DirectionId
 std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, DirectionId d,
                                                         const ComponentSet& present) {
   ComponentSet ends(features_.size());
-  return moving_together(moving, d, present, ends, features_.size());
+  Together memory(features_.size());
+  return moving_together(
+      moving, d, present, ends, [this] { return features_.size(); }, memory);
 }
 
 std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
-                                                        ComponentSet& ends, std::size_t most) {
-  together_.erase(members_);
-  members_.clear();
-  blocked_by_[moving.value] = ComponentId();
+                                                        ComponentSet& ends, const std::function<std::size_t()>& most,
+                                                        Together& memory) {
+  ComponentSet& together = memory.set;
+  std::vector<ComponentId>&members = memory.members, &blocked_by = memory.blocked_by;
+  together.erase(members);
+  members.clear();
+  blocked_by[moving.value] = ComponentId();
   std::vector<ComponentId> unfollowed{moving},
       unasked;  // members whose known relations, and whose unknown ones, are not expanded yet
   while (!unfollowed.empty() || !unasked.empty()) {
     if (unfollowed.empty()) {
       const ComponentId member = unasked.back();
-      if (const auto next = another_blocker(member, d, present, ends)) {
-        blocked_by_[next->value] = member;
+      if (const auto next = another_blocker(member, d, present, together, ends)) {
+        blocked_by[next->value] = member;
         unfollowed.push_back(*next);
       } else {
         unasked.pop_back();
@@ -270,41 +273,42 @@ std::vector<ComponentId> BlockingTable::moving_together(ComponentId moving, Dire
     }
     const ComponentId member = unfollowed.back();
     unfollowed.pop_back();
-    if (together_.has(member)) continue;
-    together_.insert(member);
-    members_.push_back(member);
+    if (together.has(member)) continue;
+    together.insert(member);
+    members.push_back(member);
     if (ends.has(member)) {
-      for (ComponentId c = member; c.valid(); c = blocked_by_[c.value]) ends.insert(c);
+      for (ComponentId c = member; c.valid(); c = blocked_by[c.value]) ends.insert(c);
       return {};
     }
-    if (members_.size() > most) {
+    if (members.size() > most()) {
       ends.insert(moving);
       return {};
     }
     unasked.push_back(member);
     if (joints_ != nullptr)
       for (const ComponentId other : joints_->tied_to(member, present)) {
-        if (together_.has(other)) continue;
-        blocked_by_[other.value] = member;
+        if (together.has(other)) continue;
+        blocked_by[other.value] = member;
         unfollowed.push_back(other);
       }
     const Row& known = row(member, d);
     for (const std::uint32_t i : known.nearest) {
       const ComponentId other = known.near[i];
-      if (known.known[i] != Known::Blocks || !present.has(other) || together_.has(other)) continue;
-      blocked_by_[other.value] = member;
+      if (known.known[i] != Known::Blocks || !present.has(other) || together.has(other)) continue;
+      blocked_by[other.value] = member;
       unfollowed.push_back(other);
     }
   }
-  std::vector<ComponentId> together = members_;
-  std::sort(together.begin(), together.end());
-  return together;
+  std::vector<ComponentId> found = members;
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 std::optional<ComponentId> BlockingTable::another_blocker(ComponentId moving, DirectionId d,
-                                                          const ComponentSet& present, const ComponentSet& ends) {
+                                                          const ComponentSet& present, const ComponentSet& together,
+                                                          const ComponentSet& ends) {
   Row& known = row(moving, d);
-  const auto is_new = [&](ComponentId c) { return present.has(c) && !together_.has(c) && blocks(known, moving, d, c); };
+  const auto is_new = [&](ComponentId c) { return present.has(c) && !together.has(c) && blocks(known, moving, d, c); };
   for (const ComponentId other : known.expected)
     if (is_new(other)) return other;
   for (const bool ends_it : {true, false})

@@ -65,11 +65,20 @@ class BlockingTable {
   /// The smallest subset of `present` that can move along `d` as one body with `moving`: itself, its blockers, theirs,
   /// ...
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present);
-  /// As above, but empty as soon as the subset would contain one of `ends` or more than `most` components. Components
-  /// that fail for that reason are added to `ends`: with the same `present`, `d` and no larger `most` they need not be
-  /// expanded again.
+  /// Memory of moving_together(), to be used again by one call after the other.
+  struct Together {
+    ComponentSet set;                     ///< The components that move together, as far as they are known.
+    std::vector<ComponentId> members;     ///< Of `set`.
+    std::vector<ComponentId> blocked_by;  ///< Of each component in `set`: the one that it moves along with.
+    /// @param count of components in the assembly
+    explicit Together(std::size_t count) : set(count), blocked_by(count) {}
+  };
+  /// As above, but empty as soon as the subset would contain one of `ends` or more than `most()` components, which may
+  /// get fewer meanwhile. Components that fail for that reason are added to `ends`: with the same `present`, `d` and no
+  /// larger `most` they need not be expanded again. May be called at the same time for different directions.
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
-                                           ComponentSet& ends, std::size_t most);
+                                           ComponentSet& ends, const std::function<std::size_t()>& most,
+                                           Together& memory);
   /// While postponed, relations that are hard to decide, where depths have to be bounded, count as blocking.
   void postpone_hard(bool postpone) { postpone_ = postpone; }
   /// True if `fixed` counts as blocking because that is postponed.
@@ -115,9 +124,9 @@ class BlockingTable {
   Row new_row(ComponentId moving, DirectionId d) const;
   bool blocks(Row& row, ComponentId moving, DirectionId d, ComponentId fixed);
   Known decide(ComponentId moving, DirectionId d, ComponentId fixed) const;
-  /// One of `present` that blocks and is not in `together_`: the expected ones are asked first, then those of `ends`.
+  /// One of `present` that blocks and is not in `together`: the expected ones are asked first, then those of `ends`.
   std::optional<ComponentId> another_blocker(ComponentId moving, DirectionId d, const ComponentSet& present,
-                                             const ComponentSet& ends);
+                                             const ComponentSet& together, const ComponentSet& ends);
   /// Calls visit(component, way_past) for those with a way past them.
   template <class Visit>
   void for_each_in_way(ComponentId moving, DirectionId d, const Visit& visit) const;
@@ -146,10 +155,6 @@ class BlockingTable {
   std::vector<std::map<DirectionId, Row>> rows_;         // of every component: several may be asked side by side
   std::vector<std::mutex> row_mutexes_;                  // of every component: held while a row is made
   std::vector<std::vector<ComponentId>> last_blockers_;  // of every component, in any direction; the last first
-  // Of moving_together():
-  ComponentSet together_;
-  std::vector<ComponentId> members_;     // of `together_`
-  std::vector<ComponentId> blocked_by_;  // of each of these: the component that it moves along with
 };
 
 }  // namespace dismantle

@@ -87,16 +87,18 @@ BlockedWay least_blocked_way(BlockingTable& table, ComponentId component, Span<c
   const Span<const ComponentId> group = table.groups().of(component);
   ComponentSet others = present;
   others.erase(group);
-  BlockedWay best;
-  double furthest = 0;
-  for (const auto& [direction, ids] : least_blocked(table, group, directions, others, executor)) {
-    std::vector<Blocker> blockers = blockers_met(table, group, direction, ids);
-    const double free_way = blockers.empty() ? 0 : blockers.front().contact.distance;
-    if (best.direction.valid() && free_way <= kClearlyFurther * furthest) continue;
-    best = {direction, std::move(blockers)};
-    furthest = free_way;
-  }
-  return best;
+  const auto least = least_blocked(table, group, directions, others, executor);
+  std::vector<BlockedWay> ways(least.size());
+  executor.for_each_heavy(least.size(), [&](std::size_t i) {
+    ways[i] = {least[i].first, blockers_met(table, group, least[i].first, least[i].second)};
+  });
+  const auto free_way = [](const BlockedWay& way) {
+    return way.blockers.empty() ? 0 : way.blockers.front().contact.distance;
+  };
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < ways.size(); ++i)
+    if (free_way(ways[i]) > kClearlyFurther * free_way(ways[best])) best = i;
+  return std::move(ways[best]);
 }
 
 Explanation explain(BlockingTable& table, ComponentId component, BlockedWay way, const ComponentSet& present) {

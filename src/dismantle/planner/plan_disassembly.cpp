@@ -273,7 +273,8 @@ class Planner {
     if (easy) return easy;
     searches.retry_postponed();
     if (auto step = single_step(SingleRemovals::Among::All)) return step;
-    while (const auto removal = smallest_body(table_, choice_.directions(), body, staying, keep_going_))
+    while (const auto removal =
+               smallest_body(table_, choice_.directions(), body, staying, options_.engine.executor, keep_going_))
       if (auto step = try_removal(*removal, body)) return step;
     return curved_.find_screwed(body, staying, CurvedSteps::Groups::OfSeveral, joints);
   }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <queue>
 #include <set>
+#include <utility>
 
 namespace dismantle {
 
@@ -99,7 +101,7 @@ class RemovalSearch {
       const std::vector<StraightRemoval> single = search.find(Executor(), keep_going_);
       std::for_each(single.begin(), single.end(), remove);
       if (!single.empty()) continue;
-      const auto body = smallest_body(table_, directions_, left, others, keep_going_);
+      const auto body = smallest_body(table_, directions_, left, others, Executor(), keep_going_);
       if (!body) break;
       remove(*body);
     }
@@ -110,6 +112,7 @@ class RemovalSearch {
   /// blockers, or together with them.
   void widen(const ComponentSet& needed, const ComponentSet& left, const ComponentSet& stuck) {
     std::map<DirectionId, ComponentSet> ends;
+    BlockingTable::Together memory(left.universe());
     const std::size_t most = std::min(left.size(), most_) - 1;
     for (const ComponentId c : stuck.members()) {
       for (const DirectionId d : directions_[c.value]) {
@@ -117,8 +120,8 @@ class RemovalSearch {
         const std::vector<ComponentId> blockers = table_.blockers(c, d, left, most_ - needed.size());
         if (never_.has_any(blockers)) continue;
         if (!stuck.has_any(blockers)) push(with(needed, blockers));
-        const std::vector<ComponentId> together =
-            table_.moving_together(c, d, left, ends.try_emplace(d, never_).first->second, most);
+        const std::vector<ComponentId> together = table_.moving_together(
+            c, d, left, ends.try_emplace(d, never_).first->second, [&] { return most; }, memory);
         if (!together.empty()) push(with(needed, together));
       }
     }
@@ -139,28 +142,63 @@ class RemovalSearch {
   std::size_t most_ = std::numeric_limits<std::size_t>::max();  ///< The size of the best set that is known.
 };
 
+/// The smallest body found, by several threads at the same time: of equal ones the one with the first direction.
+class SmallestBody {
+ public:
+  /// @param present number of components, all of which cannot be removed
+  explicit SmallestBody(std::size_t present) : size_(present) {}
+
+  /// Bodies of another component follow: they have to be smaller than those before.
+  void begin_component() { place_ = 0; }
+  /// The largest body of interest along a direction. @param place of the direction among those of the component
+  std::size_t most(std::size_t place) {
+    const std::lock_guard lock(mutex_);
+    return place < place_ ? size_ : size_ - 1;
+  }
+  /// Keeps a body if it is of interest; it may be empty.
+  void consider(std::size_t place, StraightRemoval body) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t size = body.components.size();
+    if (size == 0 || size > size_ || (size == size_ && place >= place_)) return;
+    size_ = size;
+    place_ = place;
+    found_ = std::move(body);
+  }
+  /// True if there is nothing smaller, as no single component can be removed.
+  bool is_least() const { return found_ && size_ <= 2; }
+  const std::optional<StraightRemoval>& found() const { return found_; }
+
+ private:
+  std::mutex mutex_;
+  std::size_t size_, place_ = 0;
+  std::optional<StraightRemoval> found_;
+};
+
 }  // namespace
 
 std::optional<StraightRemoval> smallest_body(BlockingTable& table, const DirectionLists& directions,
                                              const ComponentSet& present, const ComponentSet& never,
-                                             const KeepGoing& keep_going) {
-  std::optional<StraightRemoval> best;
+                                             const Executor& executor, const KeepGoing& keep_going) {
+  SmallestBody best(present.size());
   std::map<DirectionId, ComponentSet> ends;
-  std::size_t most = present.size() - 1;
+  std::vector<BlockingTable::Together> memory;
   for (const ComponentId c : present.members()) {
     if (never.has(c)) continue;
-    for (const DirectionId d : directions[c.value]) {
-      if (!keep_going()) return std::nullopt;
-      ComponentSet& ends_it = ends.try_emplace(d, never).first->second;
-      if (ends_it.has(c)) continue;
-      std::vector<ComponentId> together = table.moving_together(c, d, present, ends_it, most);
-      if (together.empty()) continue;
-      most = together.size() - 1;
-      best = StraightRemoval{std::move(together), d};
-      if (most < 2) return best;
-    }
+    std::vector<DirectionId> ways;
+    for (const DirectionId d : directions[c.value])
+      if (!ends.try_emplace(d, never).first->second.has(c)) ways.push_back(d);
+    while (memory.size() < ways.size()) memory.emplace_back(present.universe());
+    best.begin_component();
+    executor.for_each_heavy(ways.size(), [&](std::size_t i) {
+      if (!keep_going()) return;
+      best.consider(i, {table.moving_together(
+                            c, ways[i], present, ends.find(ways[i])->second, [&] { return best.most(i); }, memory[i]),
+                        ways[i]});
+    });
+    if (!keep_going()) return std::nullopt;
+    if (best.is_least()) break;
   }
-  return best;
+  return best.found();
 }
 
 std::optional<ComponentSet> fewest_removals(BlockingTable& table, const DirectionLists& directions,

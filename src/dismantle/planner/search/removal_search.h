@@ -24,11 +24,13 @@ std::vector<StraightRemoval> free_components(BlockingTable& table, const Directi
                                              const ComponentSet& present, const ComponentSet& never,
                                              const Executor& executor, const KeepGoing& keep_going);
 
-/// The smallest set without any of `never` that can be removed from `present` as one body.
+/// The smallest set without any of `never` that can be removed from `present` as one body; of equal ones the first by
+/// component and direction.
+/// @param executor runs the directions of a component; the result does not depend on it
 /// @pre no single component can be removed (free_components)
 std::optional<StraightRemoval> smallest_body(BlockingTable& table, const DirectionLists& directions,
                                              const ComponentSet& present, const ComponentSet& never,
-                                             const KeepGoing& keep_going);
+                                             const Executor& executor, const KeepGoing& keep_going);
 
 /// The smallest set of components whose removal from `present` includes all `targets`: optimal for straight motions
 /// along the candidate directions, of single components or of sets that move together. None if no such set was found.
