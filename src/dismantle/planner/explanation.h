@@ -10,7 +10,7 @@ namespace dismantle {
 
 /// A direction, and what blocks a component along it.
 struct BlockedWay {
-  DirectionId direction;
+  DirectionId direction;          ///< In the table.
   std::vector<Blocker> blockers;  ///< Nearest first.
 };
 

@@ -4,6 +4,7 @@
 #include "dismantle/planner/search/sample_search.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dismantle {
 
@@ -12,18 +13,23 @@ namespace {
 /// No longer random search is made for a component whose best excursion was below this [radii]: it only rattles in its
 /// seat.
 constexpr double kRoom = 0.5;
+/// Leads of a thread by which it can certainly not be moved along its axis.
+constexpr double kHeldLeads = 2;
 
 }  // namespace
 
 CurvedSteps::CurvedSteps(const PlannedAssembly& planned, const CurvedSearch& search, std::size_t slide_effort,
                          std::size_t sample_effort)
-    : with_(search), axes_(planned, search.validator), sliding_(slide_effort), sampling_(sample_effort) {}
+    : with_(search), axes_(planned, search.validator), sliding_(slide_effort), sampling_(sample_effort) {
+  for (const ComponentPair& pair : search.validator.engine().overlapping_pairs()) overlapping_.emplace(pair.a, pair.b);
+}
 
 std::optional<PlanStep> CurvedSteps::find_screwed(const ComponentSet& body, const ComponentSet& staying, Groups groups,
                                                   const JointRelations* joints) {
   for (const ComponentId c : smallest_first(body, staying)) {
     if ((with_.groups.of(c).size() > 1) != (groups == Groups::OfSeveral)) continue;
-    for (const auto& [neighbour, thread] : axes_.threads_of(c)) {
+    for (const NeighbourThread& touched : axes_.threads_of(c)) {
+      const auto& [neighbour, thread] = touched;
       if (!with_.keep_going()) return std::nullopt;
       if (!body.has(neighbour) || with_.groups.together(c, neighbour) || !axes_.may_turn(c, thread, body)) continue;
       if (joints != nullptr && joints->blocker(c, thread.direction, body) &&
@@ -31,7 +37,7 @@ std::optional<PlanStep> CurvedSteps::find_screwed(const ComponentSet& body, cons
         continue;
       std::vector<ComponentId>& met = met_[{c, neighbour}];
       if (!met.empty() && body.has_all(met)) continue;
-      if (!holds(c, neighbour, thread.direction)) continue;
+      if (!holds(c, touched)) continue;
       PathSearch search = screw_out(with_.validator, with_.table, c, thread, with_.keep_going);
       if (search.step) return with_group(std::move(*search.step));
       met = std::move(search.met);
@@ -40,15 +46,18 @@ std::optional<PlanStep> CurvedSteps::find_screwed(const ComponentSet& body, cons
   return std::nullopt;
 }
 
-/// True if a thread keeps two components from parting straight along its axis. The contact faces of a wheel and its
-/// shaft can be mistaken for a thread, and unscrewing the wheel would take thousands of steps.
-bool CurvedSteps::holds(ComponentId c, ComponentId neighbour, Vec3 axis) {
-  const auto [known, is_new] = held_.try_emplace({c, neighbour}, true);
+/// True if a thread keeps two components from moving straight along its axis, either way: by a few turns, in which the
+/// flanks of a thread meet, or, where the two may overlap so that flanks may pass each other, from parting. The contact
+/// faces of a wheel and its shaft can be mistaken for a thread, and unscrewing the wheel would take thousands of steps.
+/// @param thread of ComponentAxes::threads_of(c)
+bool CurvedSteps::holds(ComponentId c, const NeighbourThread& thread) {
+  const auto [known, is_new] = held_.try_emplace(&thread, true);
   if (!is_new) return known->second;
-  const double way = with_.table.max_exit_distance(c);
-  for (const Vec3 direction : {axis, -axis})
-    known->second = known->second &&
-                    with_.validator.engine().straight_contact(c, neighbour, way * direction, StraightSearch::Quick);
+  const bool may_overlap = overlapping_.count(std::minmax(c, thread.neighbour)) > 0;
+  const double way = may_overlap ? with_.table.max_exit_distance(c) : kHeldLeads * std::abs(thread.thread.lead);
+  for (const Vec3& direction : {thread.thread.direction, -thread.thread.direction})
+    known->second = known->second && with_.validator.engine().straight_contact(c, thread.neighbour, way * direction,
+                                                                               StraightSearch::Quick);
   return known->second;
 }
 

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -53,7 +54,7 @@ class CurvedSteps {
   template <class Search>
   std::optional<PlanStep> find_long(LongSearches& searches, const ComponentSet& body, const ComponentSet& staying,
                                     const Search& search);
-  bool holds(ComponentId c, ComponentId neighbour, Vec3 axis);
+  bool holds(ComponentId c, const NeighbourThread& thread);
   PlanStep with_group(PlanStep step) const;
   std::vector<ComponentId> smallest_first(const ComponentSet& body, const ComponentSet& staying) const;
 
@@ -61,7 +62,8 @@ class CurvedSteps {
   ComponentAxes axes_;
   LongSearches sliding_, sampling_;
   std::map<std::pair<ComponentId, ComponentId>, std::vector<ComponentId>> met_;  // by pairs that could not be unscrewed
-  std::map<std::pair<ComponentId, ComponentId>, bool> held_;                     // by pairs: see holds()
+  std::set<std::pair<ComponentId, ComponentId>> overlapping_;                    // a < b
+  std::map<const NeighbourThread*, bool> held_;                                  // see holds()
 };
 
 }  // namespace dismantle
