@@ -68,23 +68,36 @@ TEST(ScrewSearch, TurnsNoPlateThatIsHeldByThreeScrews) {
   EXPECT_TRUE(axes.may_turn(plate_id, threads[2].thread, body));
 }
 
-TEST(ScrewSearch, DoesNotTurnWhatPartsStraight) {
-  // A bolt between a floor and a lid, in a nut with the same thread that is as wide or far wider.
-  for (const bool wider : {false, true}) {
+TEST(ScrewSearch, DoesNotTurnWhatNoThreadHolds) {
+  // A bolt between a floor and a lid, in a nut with the same thread that is as wide or far wider. Where the floor and
+  // the lid are far away and one with the nut, the two do not part straight, but move by more than the thread lets
+  // them.
+  struct Case {
+    bool wider, one_with_nut;
+  };
+  for (const auto [wider, one_with_nut] : {Case{false, false}, {true, false}, {false, true}, {true, true}}) {
+    SCOPED_TRACE(testing::Message() << wider << one_with_nut);
     std::vector<Component> components = scenes::short_screw(0.05, 20);
     if (wider) components[0] = scenes::short_screw(1.2, 20)[0];
     const Aabb bolt = bounds(*components[1].mesh);
-    for (const double z : {bolt.lower.z - 1.2, bolt.upper.z + 0.2})
+    const double gap = one_with_nut ? 4 : 0.2;
+    for (const double z : {bolt.lower.z - gap - 1, bolt.upper.z + gap})
       components.push_back(scenes::component("plate", scenes::box({-9, -9, z}, {9, 9, z + 1})));
+    if (one_with_nut) {
+      components[0] = scenes::component(
+          "nut", scenes::joined(scenes::joined(*components[0].mesh, *components[2].mesh), *components[3].mesh));
+      components.resize(2);
+    }
     const scenes::PlanScene scene = scenes::plan_scene(scenes::assembly(std::move(components)));
     std::vector<ShapeFeatures> features;
     for (const Component& c : scene.assembly.components) features.push_back(shape_features(assembled_mesh(c)));
-    const RigidGroups groups(4);
+    const std::size_t count = scene.assembly.components.size();
+    const RigidGroups groups(count);
     const KeepGoing always = [] { return true; };
     MotionValidator validator(scene.assembly, scene.pairs, {}, groups, 1e4, always);
     BlockingTable table(validator.engine(), features, groups, always);
     const PlannedAssembly planned{scene.assembly, features, scene.pairs.tolerance};
-    const ComponentSet all = ComponentSet::all(4);
+    const ComponentSet all = ComponentSet::all(count);
     ComponentSet staying = all;
     staying.erase(ComponentId(1));
     const DirectionChoice choice(planned, table, validator.engine(), staying, {}, always);
