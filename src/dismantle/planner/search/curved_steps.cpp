@@ -46,9 +46,9 @@ std::optional<PlanStep> CurvedSteps::find_screwed(const ComponentSet& body, cons
   return std::nullopt;
 }
 
-/// True if a thread keeps two components from moving straight along its axis, either way: by a few turns, in which the
-/// flanks of a thread meet, or, where the two may overlap so that flanks may pass each other, from parting. The contact
-/// faces of a wheel and its shaft can be mistaken for a thread, and unscrewing the wheel would take thousands of steps.
+/// True if a thread keeps two components from moving straight along its axis, either way: by two leads, within which
+/// flanks meet, or, where the two may overlap so that flanks may pass each other, from parting. The contact faces of a
+/// wheel and its shaft can be mistaken for a thread, and unscrewing the wheel would take thousands of steps.
 /// @param thread of ComponentAxes::threads_of(c)
 bool CurvedSteps::holds(ComponentId c, const NeighbourThread& thread) {
   const auto [known, is_new] = held_.try_emplace(&thread, true);
