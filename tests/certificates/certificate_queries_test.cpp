@@ -79,6 +79,26 @@ TEST(CertificateQueries, NamesTheFirstOfEquallyNearComponents) {
   EXPECT_EQ(h.engine.clearance().fixed, ComponentId(1));
 }
 
+TEST(CertificateQueries, GivesNearFacesAndTheirContactsAsOfTheMovingSet) {
+  const Assembly assembly =
+      scenes::assembly({component("peg", tube(4.95, 0, 0, 20, 24)), component("block", tube(12, 5, 0, 20, 24))});
+  const PairStates states = states_of(assembly);
+  Grabbed h(assembly, states, 0);
+  h.engine.jump(std::vector<Pose>{{{0.04, 0.01, 3}, {}}, {}});
+  const ComponentId peg(0);
+  h.engine.grab({&peg, 1});
+  std::size_t most = 0;
+  for (const double reach : {0.0, 0.02, 0.2, 3.0}) {
+    const std::vector<ContactPoint> contacts = h.engine.contacts(reach);
+    const std::vector<NearFaces> near = h.engine.near_faces(peg, reach);
+    ASSERT_EQ(near.size(), contacts.size()) << reach;
+    for (std::size_t i = 0; i < near.size(); ++i) EXPECT_EQ(h.engine.contact(near[i]), contacts[i]) << reach;
+    EXPECT_GE(near.size(), most);
+    most = near.size();
+  }
+  EXPECT_GT(most, 100u);
+}
+
 TEST(CertificateQueries, NeverOverstatesTheClearance) {
   // A peg that shakes in its bore: contacts begin and end within the steps.
   const Assembly assembly =

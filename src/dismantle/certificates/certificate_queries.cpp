@@ -24,7 +24,7 @@ Triangle at(const Triangle& own, const Pose& pose) {
   return at(own, transform_from_pose(pose));
 }
 
-/// Gives faces of one component after another at its pose.
+/// Faces at the poses of their components. Keeps the transform of the last component.
 class PlacedFaces {
  public:
   explicit PlacedFaces(const CertificateSweeper& sweeper) : sweeper_(sweeper) {}
@@ -90,10 +90,9 @@ std::vector<ContactPoint> contacts_of(const CertificateSweeper& sweeper, Span<co
   std::vector<ContactPoint> contacts;
   PlacedFaces of_moving(sweeper), of_fixed(sweeper);
   for (const SweepContact& pair : pairs) {
-    const Triangle moving = of_moving(pair.moving, pair.face_moving);
-    const Triangle fixed = of_fixed(pair.fixed, pair.face_fixed);
-    if (!triangles_within(moving, fixed, reach)) continue;
-    contacts.push_back(contact({pair.moving, pair.fixed, pair.face_moving, pair.face_fixed}, moving, fixed));
+    const ContactPoint c = contact({pair.moving, pair.fixed, pair.face_moving, pair.face_fixed},
+                                   of_moving(pair.moving, pair.face_moving), of_fixed(pair.fixed, pair.face_fixed));
+    if (c.gap <= reach) contacts.push_back(c);
   }
   return contacts;
 }

@@ -59,13 +59,14 @@ class BlockingTable {
   bool blocks(ComponentId moving, DirectionId d, ComponentId fixed);
   /// A blocking component among `present`, if there is one; the same one as long as it is present.
   std::optional<ComponentId> any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
-  /// The blocking components among `present`, ascending; at most `enough` of them.
+  /// The blocking components among `present`, ascending; at most `enough` of them. May be called at the same time for
+  /// different directions or components.
   std::vector<ComponentId> blockers(ComponentId moving, DirectionId d, const ComponentSet& present,
                                     std::size_t enough = std::numeric_limits<std::size_t>::max());
   /// The smallest subset of `present` that can move along `d` as one body with `moving`: itself, its blockers, theirs,
   /// ...
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present);
-  /// Memory of moving_together(), to be used again by one call after the other.
+  /// Working memory of moving_together(). Calls that do not overlap in time may share it.
   struct Together {
     ComponentSet set;                     ///< The components that move together, as far as they are known.
     std::vector<ComponentId> members;     ///< Of `set`.
@@ -74,8 +75,9 @@ class BlockingTable {
     explicit Together(std::size_t count) : set(count), blocked_by(count) {}
   };
   /// As above, but empty as soon as the subset would contain one of `ends` or more than `most()` components, which may
-  /// get fewer meanwhile. Components that fail for that reason are added to `ends`: with the same `present`, `d` and no
-  /// larger `most` they need not be expanded again. May be called at the same time for different directions.
+  /// decrease meanwhile. Components that fail for that reason are added to `ends`: with the same `present`, `d` and no
+  /// larger `most` they need not be expanded again. May be called at the same time for different directions,
+  /// each with its own memory.
   std::vector<ComponentId> moving_together(ComponentId moving, DirectionId d, const ComponentSet& present,
                                            ComponentSet& ends, const std::function<std::size_t()>& most,
                                            Together& memory);
@@ -124,7 +126,8 @@ class BlockingTable {
   Row new_row(ComponentId moving, DirectionId d) const;
   bool blocks(Row& row, ComponentId moving, DirectionId d, ComponentId fixed);
   Known decide(ComponentId moving, DirectionId d, ComponentId fixed) const;
-  /// One of `present` that blocks and is not in `together`: the expected ones are asked first, then those of `ends`.
+  /// A component of `present` outside `together` that blocks `moving`, if there is one. Tries the expected blockers
+  /// first, then those in `ends`.
   std::optional<ComponentId> another_blocker(ComponentId moving, DirectionId d, const ComponentSet& present,
                                              const ComponentSet& together, const ComponentSet& ends);
   /// Calls visit(component, way_past) for those with a way past them.

@@ -13,7 +13,7 @@ namespace dismantle {
 
 namespace {
 
-/// Values by keys, each made when it is first wanted, by any thread: others wait only for the value that they want.
+/// A map whose values are made by the first thread that asks for them. Other threads wait only for the same value.
 template <class Key, class Value>
 class MadeOnce {
  public:

@@ -13,7 +13,7 @@ namespace {
 /// No longer random search is made for a component whose best excursion was below this [radii]: it only rattles in its
 /// seat.
 constexpr double kRoom = 0.5;
-/// Leads of a thread by which it can certainly not be moved along its axis.
+/// A thread stops straight motion along its axis within this many leads.
 constexpr double kHeldLeads = 2;
 
 }  // namespace

@@ -142,7 +142,7 @@ class RemovalSearch {
   std::size_t most_ = std::numeric_limits<std::size_t>::max();  ///< The size of the best set that is known.
 };
 
-/// The smallest body found, by several threads at the same time: of equal ones the one with the first direction.
+/// The smallest body that several threads have found so far; of equal ones, that along the first direction.
 class SmallestBody {
  public:
   /// @param present number of components, all of which cannot be removed
