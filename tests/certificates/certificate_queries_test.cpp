@@ -119,6 +119,7 @@ TEST(CertificateQueries, FindsTheFirstContactOfAMotionWithoutMoving) {
   Grabbed h(assembly, states, 0);
   const std::vector<Pose> targets = {{{0, 0, 5}, {}}, {{0, 0, -4}, {}}, {{200, 0, 0}, {}}, {{5, 0, -2}, {}}};
   std::vector<FirstContact> found;
+  found.reserve(targets.size());
   for (const Pose& target : targets) found.push_back(h.engine.first_contact(target));
   EXPECT_TRUE(found[0].free);
   EXPECT_TRUE(found[2].free);
