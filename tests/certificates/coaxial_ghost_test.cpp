@@ -7,6 +7,7 @@
 #include "dismantle/surface/ghost_surface.h"
 #include "tests/certificates/grabbed_component.h"
 #include "tests/support/depth_oracle.h"
+#include "tests/support/large_scenes.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/swept_meshes.h"
 
@@ -66,6 +67,53 @@ TEST(CoaxialGhost, LetsANutThatIsDrawnOffItsScrewOutAlongTheAxisOnly) {
     EXPECT_LE(oracle::sampled_depth(moved, *assembly.components[0].mesh, 1).depth, start + 1.1 * kTolerance);
     EXPECT_LT(aside.position.x, 1.5);
   }
+}
+
+/// A nut on a bolt, with threads that are 0.03 mm too wide for each other. Below `z` the grooves of the bolt end at
+/// `radius`, as in a run-out: there the nut's thread is deeper in it.
+Assembly nut_at_a_run_out(double z, double radius) {
+  const scenes::SlideScene scene = scenes::bolt_in_nut(24000, -0.03);
+  TriangleMesh bolt = *scene.assembly.components[1].mesh;
+  for (Vec3& p : bolt.vertices) {
+    const double r = std::hypot(p.x, p.y);
+    if (r == 0 || r >= radius || p.z >= z) continue;
+    p.x *= radius / r;
+    p.y *= radius / r;
+  }
+  return scenes::assembly({scene.assembly.components[0], scenes::component("bolt", bolt)});
+}
+
+TEST(CoaxialGhost, HoldsANutByTheRestOfItsThreadWhereItIsDeepInTheRunOut) {
+  for (const auto& [z, radius] : {std::pair{3.0, 4.0}, {1.5, 4.2}, {0.7, 4.1}}) {
+    SCOPED_TRACE(radius);
+    const Assembly assembly = nut_at_a_run_out(z, radius);
+    const PairStates states = states_of(assembly);
+    ASSERT_EQ(states.pairs.size(), 1u);
+    ASSERT_GT(states.pairs[0].depth, 0.3);
+    Grabbed bolt(assembly, states, 1);
+    const auto expect_held = [&](double angle) {
+      for (const double away : {40.0, -40.0}) {
+        const Pose from = scenes::unscrewed(angle);
+        const Pose target{from.position + Vec3{0, 0, away}, from.rotation};
+        const Pose along = bolt.engine.step(target, ResponseKind::Touch).pose;
+        EXPECT_LT(std::abs(along.position.z - from.position.z), 0.1) << away;
+        bolt.engine.step(from, ResponseKind::Touch);
+        EXPECT_EQ(bolt.engine.poses()[1], from);
+      }
+    };
+    expect_held(0);
+    for (int k = 1; k <= 10; ++k) EXPECT_TRUE(bolt.engine.step(scenes::unscrewed(-k), ResponseKind::Touch).reached);
+    expect_held(-10);
+  }
+}
+
+TEST(CoaxialGhost, KeepsTheThreadsThatMate) {
+  const Assembly assembly = nut_at_a_run_out(3, 4);
+  const AssemblySurfaces surfaces(assembly, states_of(assembly));
+  const PairKey pair{ComponentId(0), ComponentId(1)};
+  ASSERT_NE(surfaces.own_ghosts(pair), nullptr);
+  EXPECT_EQ(surfaces.own_threads({pair, GhostOf::First}).size(), 1u);
+  EXPECT_EQ(surfaces.own_threads({pair, GhostOf::Second}).size(), 1u);
 }
 
 TEST(CoaxialGhost, IsNoDeeperInItsSolidThanAllowed) {

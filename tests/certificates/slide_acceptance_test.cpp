@@ -163,6 +163,28 @@ TEST(Slide, ScrewsAnM8NutOffItsBoltAndDoesNotPullItOff) {
   EXPECT_GT(assembled_bounds(scene.assembly[scene.moving]).lower.z + end.position.z, bolt_top);
 }
 
+TEST(Slide, HoldsAnM8NutByItsThreadWhereItIsDeepInTheRunOut) {
+  DISMANTLE_NEED(kM8.parts);
+  // At its seat the nut is 0.43 mm deep in the run-out of the bolt's thread, and 0.032 mm everywhere else.
+  const SlideScene scene = scene_of({kM8.parts, kM8.pitch});
+  for (const double tolerance : {0.0, 0.001, kNutTolerance, 0.01}) {
+    SCOPED_TRACE("tolerance " + std::to_string(tolerance));
+    const PairStates states = states_of(scene.assembly, tolerance);
+    EXPECT_GT(states.pairs[0].depth, 0.4);
+    CertificateEngine engine(scene.assembly, states);
+    engine.grab({&scene.moving, 1});
+    const double play = engine.step({{0, 0, 20}, {}}, ResponseKind::Touch).pose.position.z;
+    EXPECT_LT(play, 0.05 * kM8.pitch);
+    for (int k = 1; k <= 4; ++k) {
+      const Pose target{{0, 0, kM8.pitch * k / 4}, quat_about({0, 0, 1}, kTurn * k / 4)};
+      EXPECT_NEAR(engine.step(target, ResponseKind::Slide).pose.position.z, target.position.z, play) << "quarter " << k;
+    }
+    const double at = engine.poses()[1].position.z;
+    const Quat turned = engine.poses()[1].rotation;
+    EXPECT_LT(engine.step({{0, 0, at + 20}, turned}, ResponseKind::Touch).pose.position.z - at, 0.05 * kM8.pitch);
+  }
+}
+
 TEST(Slide, TurnsAnM16NutByHalfATurnOnItsBoltAndDoesNotPullItAlong) {
   DISMANTLE_NEED(kM16.parts);
   const SlideScene scene = scene_of(kM16);

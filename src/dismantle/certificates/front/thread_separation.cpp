@@ -92,13 +92,13 @@ double ThreadSweep::off(const ThreadBounds& node) const {
 }
 
 double ThreadSweep::phase() const {
-  return std::remainder(phase_, match_->frame.period);
+  return nearest_remainder(phase_, match_->frame.period);
 }
 
 double ThreadSweep::kept_gap(float in_place, float phase) const {
   const double period = match_->frame.period;
   const double shifted =
-      std::abs(std::remainder(phase_ - static_cast<double>(phase), period)) + kPhaseRounding * period;
+      std::abs(nearest_remainder(phase_ - static_cast<double>(phase), period)) + kPhaseRounding * period;
   return static_cast<double>(in_place) - shifted - largest_off_;
 }
 

@@ -19,6 +19,16 @@ constexpr std::size_t kMaxAxes = 3;
 /// Faces whose normals are this nearly along the axis belong neither to an outer surface nor to a bore.
 constexpr double kAcross = 0.05;
 
+/// Distances from a surface are looked up to this many times the depth of the pair.
+constexpr double kBeyondDepth = 1.1;
+/// Vertices are in deep places where they are deeper than this many times what one of these shares of all vertices
+/// that are inside are not.
+constexpr double kDeepShare = 1.6;
+constexpr double kShares[] = {0.5, 0.75, 0.9};
+/// Elsewhere, the depth is at most this share of that of the pair, and the range is at most this share of the length
+/// along which the two overlap.
+constexpr double kShallowShare = 0.5, kShortShare = 0.5;
+
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// A range of distances from an axis, or of positions along it [mm].
@@ -97,8 +107,9 @@ class Coaxial {
     const std::vector<bool>& stays = request_.surface->beside_open_edge();
     std::vector<bool> inwards(of_outer.size()), outwards(of_outer.size());
     for (std::size_t v = 0; v < of_outer.size(); ++v) {
-      inwards[v] = of_outer[v] && !of_bore[v] && !stays[v] && first_[v] == v;
-      outwards[v] = of_bore[v] && !of_outer[v] && !stays[v] && first_[v] == v;
+      const bool may = !stays[v] && first_[v] == v && (request_.movable.empty() || request_.movable[v]);
+      inwards[v] = of_outer[v] && !of_bore[v] && may;
+      outwards[v] = of_bore[v] && !of_outer[v] && may;
     }
     const auto beside_bore = edges_at(inwards), beside_shaft = edges_at(outwards);
     for (const double gap : request_.gaps) {
@@ -210,6 +221,46 @@ std::vector<RevolutionAxis> common_axes(const SolidTree& a, const SolidTree& b, 
         common.push_back(axis);
     }
   return common;
+}
+
+std::vector<DeepRange> deep_ranges(const OverlapSide& a, const OverlapSide& b, const RevolutionAxis& axis, double least,
+                                   double depth) {
+  const AxisFrame frame(axis.point, axis.direction);
+  struct Inside {
+    double along, depth;
+  };
+  std::vector<Inside> inside;
+  Range all;
+  const auto look_at = [&](const OverlapSide& own, const SolidShape& other) {
+    const double farthest = kBeyondDepth * depth;
+    for (const Vec3 p : own.tree->vertices) {
+      Aabb at;
+      at.extend(p);
+      if (!overlaps(other.surface().bounds(), at)) continue;
+      const double distance = other.surface().distance(p, 0, farthest).distance;
+      if (distance <= least || distance >= farthest || !other.winding().inside(p)) continue;
+      inside.push_back({frame.along(p), distance});
+      all.extend(inside.back().along);
+    }
+  };
+  look_at(a, b.shape());
+  look_at(b, a.shape());
+  std::sort(inside.begin(), inside.end(), [](Inside x, Inside y) { return x.depth < y.depth; });
+  std::vector<DeepRange> ranges;
+  for (const double share : kShares) {
+    if (inside.empty()) break;
+    const auto most = static_cast<std::size_t>(share * static_cast<double>(inside.size()));
+    DeepRange range{kInfinite, -kInfinite, kDeepShare * inside[most].depth};
+    if (range.elsewhere > kShallowShare * depth) break;
+    for (const Inside& vertex : inside) {
+      if (vertex.depth <= range.elsewhere) continue;
+      range.begin = std::min(range.begin, vertex.along);
+      range.end = std::max(range.end, vertex.along);
+    }
+    if (range.begin > range.end) break;
+    if (range.end - range.begin <= kShortShare * (all.high - all.low)) ranges.push_back(range);
+  }
+  return ranges;
 }
 
 std::optional<std::vector<Vec3>> coaxial_ghost(const CoaxialRequest& request,

@@ -29,7 +29,24 @@ struct CoaxialRequest {
   std::vector<double> gaps;
   /// Past all of the other component, however far it is along the axis, and not only past what is beside this one.
   bool whole = true;
+  /// For each vertex, if it may be moved; empty: all may.
+  std::vector<bool> movable = {};
 };
+
+/// The part of a common axis along which two components overlap much deeper than elsewhere: the run-out of a thread.
+struct DeepRange {
+  double begin = 0, end = 0;  ///< Positions along the axis, as AxisFrame has them [mm].
+  double elsewhere = 0;       ///< No vertex outside the range is deeper [mm].
+
+  /// True if a position along the axis is in the range, or no further than `beyond` from it [mm].
+  bool contains(double along, double beyond) const { return along >= begin - beyond && along <= end + beyond; }
+};
+
+/// Short ranges of vertices of either component that are much deeper in the other one than most are; the one with the
+/// least depth elsewhere first. None where vertices are about equally deep all along the axis.
+/// @param least depths below this one do not count [mm] @param depth of the pair [mm]
+std::vector<DeepRange> deep_ranges(const OverlapSide& a, const OverlapSide& b, const RevolutionAxis& axis, double least,
+                                   double depth);
 
 /// Displaced vertices in which what engages is gone: vertices of an outer surface that reach beyond the other
 /// component's bore are moved straight towards the axis, and those of a bore that the other component reaches into

@@ -122,25 +122,49 @@ class GhostSide {
   }
 
  private:
-  /// About an axis that the two share, all that engages moved out of the way.
+  /// About an axis that the two share, what engages moved out of the way: only in a range of the axis where they are
+  /// much deeper than elsewhere, so that the rest still holds them, or all of it.
   std::optional<Found> find_coaxial() {
     if (std::exchange(tried_coaxial_, true)) return std::nullopt;
     const auto axes = common_axes(*own_.tree, *other_.tree, kSameAxis * depth_limit_);
     if (axes.empty()) return std::nullopt;
     const double length = std::exchange(max_length_, longest());
+    std::optional<std::vector<Vec3>> found;
+    for (const RevolutionAxis& axis : axes)
+      for (const DeepRange& range : deep_ranges(own_, other_, axis, kPlay * request_.tolerance, request_.depth))
+        if (!found) found = find_in(range, axis);
+    const std::vector<Vec3> start = retracted({});
+    for (const RevolutionAxis& axis : axes)
+      for (const bool whole : {true, false})
+        if (!found) found = coaxial(axis, start, whole, {});
+    max_length_ = length;
+    return found ? std::optional(Found{std::move(*found), true}) : std::nullopt;
+  }
+
+  /// What engages moved out of the way in a range of the axis, faces elsewhere retracted by what they need there.
+  std::optional<std::vector<Vec3>> find_in(const DeepRange& range, const RevolutionAxis& axis) {
+    std::vector<double> elsewhere = needed(kMargins[0]);
+    for (double& n : elsewhere) n = std::max(std::min(n, range.elsewhere), request_.everywhere);
+    const std::vector<Vec3> retracted = this->retracted(elsewhere);
+    const AxisFrame frame(axis.point, axis.direction);
+    std::vector<bool> deep(retracted.size());
+    // Vertices at one position move alike, also where rounding puts them on two sides of the border.
+    for (std::size_t v = 0; v < deep.size(); ++v)
+      deep[v] = range.contains(frame.along(own_.tree->vertices[surface().first()[v]]), max_length_);
+    std::vector<Vec3> start = retracted;
+    for (std::size_t v = 0; v < deep.size(); ++v)
+      if (deep[v]) start[v] = usual_->vertices[v];
+    if (auto found = coaxial(axis, start, true, deep)) return found;
+    return coaxial(axis, retracted, true, deep);
+  }
+
+  std::optional<std::vector<Vec3>> coaxial(const RevolutionAxis& axis, const std::vector<Vec3>& start, bool whole,
+                                           const std::vector<bool>& movable) {
     std::vector<double> gaps;
     for (const double share : kCoaxialGaps) gaps.push_back(share * request_.depth);
     gaps.push_back(kGaps[0] * request_.tolerance);
-    const auto good = [&](const std::vector<Vec3>& vertices) { return apart(vertices) && shallow(vertices); };
-    const std::vector<Vec3> start = retracted({});
-    std::optional<std::vector<Vec3>> found;
-    for (const RevolutionAxis& axis : axes)
-      for (const bool whole : {true, false})
-        if (!found)
-          found =
-              coaxial_ghost({&own_, &other_, &surface(), axis, start, max_length_, depth_limit_, gaps, whole}, good);
-    max_length_ = length;
-    return found ? std::optional(Found{std::move(*found), true}) : std::nullopt;
+    return coaxial_ghost({&own_, &other_, &surface(), axis, start, max_length_, depth_limit_, gaps, whole, movable},
+                         [&](const std::vector<Vec3>& vertices) { return apart(vertices) && shallow(vertices); });
   }
 
   /// The largest displacement by which points of thin parts do not get past each other [mm].

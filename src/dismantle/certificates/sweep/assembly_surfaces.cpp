@@ -162,8 +162,15 @@ void AssemblySurfaces::add_guards(std::vector<FoundGuard> guards, const Executor
     for (int k = 0; k < 2; ++k)
       made[i].ghosts[k] =
           std::make_shared<const SolidTree>(make_displaced_tree(solid(ids[k]), std::move(found.ghosts[k]), Executor{}));
-    prepare_radial_bounds(*made[i].ghosts[0], solid(found.b));
-    prepare_radial_bounds(solid(found.a), *made[i].ghosts[1]);
+    const auto prepare_radial = [&](int ghost, const SolidTree& a, const SolidTree& b) {
+      std::vector<ThreadMatch> threads;
+      if (a.revolution && b.revolution)
+        threads = match_threads(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin);
+      made[i].threads[ghost] = std::make_shared<const std::vector<ThreadMatch>>(std::move(threads));
+      prepare_radial_bounds(a, b);
+    };
+    prepare_radial(0, *made[i].ghosts[0], solid(found.b));
+    prepare_radial(1, solid(found.a), *made[i].ghosts[1]);
   });
   for (std::size_t i = 0; i < guards.size(); ++i) guarded_[{guards[i].a, guards[i].b}] = std::move(made[i]);
 }
@@ -176,6 +183,13 @@ const AssemblySurfaces::SharedTree* AssemblySurfaces::own_ghosts(const PairKey& 
 Span<const ThreadMatch> AssemblySurfaces::threads(const FrontKey& key) const {
   const auto found = threads_.find(key);
   return found == threads_.end() ? Span<const ThreadMatch>{} : found->second;
+}
+
+Span<const ThreadMatch> AssemblySurfaces::own_threads(const FrontKey& key) const {
+  const auto found = guarded_.find(key.first);
+  if (found == guarded_.end() || key.second == GhostOf::None) return {};
+  const auto& threads = found->second.threads[key.second == GhostOf::First ? 0 : 1];
+  return threads ? Span<const ThreadMatch>(*threads) : Span<const ThreadMatch>{};
 }
 
 }  // namespace dismantle

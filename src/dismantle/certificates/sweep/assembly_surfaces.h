@@ -37,6 +37,8 @@ class AssemblySurfaces {
   struct PairSurfaces {
     GuardedPair guard;     ///< Not parted.
     SharedTree ghosts[2];  ///< Of both components, where they have ghosts of their own; else null.
+    /// The mating threads of either ghost and the other component; null where they have no ghosts of their own.
+    std::shared_ptr<const std::vector<ThreadMatch>> threads[2];
   };
 
   /// Prepares everything. Components and pairs that `options.prepared` has in the same place, with the same allowances,
@@ -60,6 +62,9 @@ class AssemblySurfaces {
   const SharedTree* own_ghosts(const PairKey& pair) const;
   /// The mating threads of the surfaces that components have against all others.
   Span<const ThreadMatch> threads(const FrontKey& key) const;
+  /// The mating threads of the ghost surface that one of two components has against the other one alone, and of that
+  /// other one. @pre own_ghosts() are not null
+  Span<const ThreadMatch> own_threads(const FrontKey& key) const;
   /// The bounding spheres of all components.
   const BoundingSpheres& spheres() const { return spheres_; }
 

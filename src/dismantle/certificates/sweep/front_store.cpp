@@ -25,9 +25,10 @@ CertificateFront FrontStore::new_front(ComponentId a, ComponentId b, GhostOf gho
   const SolidTree& of_a = ghost == GhostOf::First ? this->ghost(a, b) : solid(a);
   const SolidTree& of_b = ghost == GhostOf::Second ? this->ghost(b, a) : solid(b);
   // Matches name the threads of the first component first, and belong to the surfaces that they were found in.
-  const bool matched = a < b && !ghosts_in_use({a, b});
-  return {of_a.tree, of_b.tree, of_a.revolution.get(), of_b.revolution.get(),
-          matched ? surfaces_->threads({{a, b}, ghost}) : Span<const ThreadMatch>{}};
+  Span<const ThreadMatch> threads;
+  if (a < b)
+    threads = ghosts_in_use({a, b}) ? surfaces_->own_threads({{a, b}, ghost}) : surfaces_->threads({{a, b}, ghost});
+  return {of_a.tree, of_b.tree, of_a.revolution.get(), of_b.revolution.get(), threads};
 }
 
 FrontKey FrontStore::key_of(ComponentId x, ComponentId y, GhostOf ghost) {
