@@ -136,6 +136,27 @@ TEST(RadialSweep, ClaimsNoMoreOfAThinShaftThatLeansOverTheRimOfAWideBore) {
   }
 }
 
+TEST(RadialSweep, UsesOnlyAxesWithRoomBetweenTheirCylinders) {
+  const auto used = [](const Body& moving, const Body& fixed, double aside) {
+    const PairMotion motion = motion_of(moving, fixed, {{aside, 0, 0}, {}}, {{aside, 0, 1}, {}});
+    return RadialSweeps(*moving.revolution, moving.tree.origin, *fixed.revolution, fixed.tree.origin, motion)
+        .get()
+        .size();
+  };
+  const Body shaft(scenes::tube(10, 0, -10, 10, 64, 1)), wider(scenes::tube(10.2, 0, -10, 10, 64, 1));
+  for (const auto& [a, b] : {std::pair{&shaft, &wider}, {&wider, &shaft}}) {
+    EXPECT_EQ(used(*a, *b, 0.1), 1u);
+    EXPECT_EQ(used(*a, *b, 0.3), 0u);
+  }
+  // A bush has room for them in its bore, up to a share of the size.
+  const Body bush(scenes::tube(14, 11, -10, 10, 64, 1));
+  EXPECT_EQ(used(shaft, bush, 0.9), 1u);
+  EXPECT_EQ(used(shaft, bush, 1.1), 0u);
+  // Cylinders of one radius have none, but may be a press fit, with an axis that is rounded.
+  EXPECT_EQ(used(shaft, shaft, 0), 1u);
+  EXPECT_EQ(used(shaft, shaft, 1e-6), 1u);
+}
+
 TEST(RadialSweep, SeparatesAWholeShaftFromItsBore) {
   const Body bush(scenes::tube(14, 10, -10, 10, 64, 1)), shaft(scenes::tube(9.9, 0, -15, 15, 64, 1));
   for (const bool bush_moves : {false, true}) {

@@ -29,6 +29,8 @@ TEST(RevolutionAxes, FindsTheAxisOfATubeInAnyPose) {
         EXPECT_LT(off(axes[0], transform_from_pose(pose) * Vec3{0, 0, -20}), 1e-6);
         EXPECT_LT(off(axes[0], transform_from_pose(pose) * Vec3{0, 0, 20}), 1e-6);
         EXPECT_LT(length(axes[0].point - pose.position), 1e-6) << "nearest to the middle";
+        EXPECT_NEAR(axes[0].min_radius, 6, 1e-5);
+        EXPECT_NEAR(axes[0].max_radius, 10, 1e-5);
       }
 }
 

@@ -2,10 +2,13 @@
 #include "dismantle/bvh/radial_bounds.h"
 
 #include "dismantle/features/axis_frame.h"
+#include "dismantle/math/angle.h"
 #include "dismantle/math/vec3f.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -20,17 +23,28 @@ constexpr double kFacing = 0.70710678;
 /// A face lies across the axis if the part of its unit normal perpendicular to the axis is at most this long.
 constexpr double kAcross = 0.04;
 
-/// A corner in coordinates about an axis.
+/// A vertex in coordinates about an axis.
 struct Corner {
-  Vec3 across;       // from the axis
-  double along = 0;  // from the axis' point
+  Vec3 across;           // from the axis
+  double distance = 0;   // from the axis
+  double along = 0;      // from the axis' point
+  double angle = 0;      // [rad]
+  double magnitude = 0;  // of its largest coordinate
 };
 
+Corner corner_at(Vec3 p, const AxisFrame& axis) {
+  const Vec3 across = axis.across(p);
+  return {across, length(across), axis.along(p), axis.angle(across), max_abs(p)};
+}
+
+/// The corners of a face.
+using Corners = std::array<const Corner*, 3>;
+
 /// The distance of the triangle from the axis, in the projection along it.
-double min_distance(const Corner (&c)[3], Vec3 axis) {
+double min_distance(const Corners& c, Vec3 axis) {
   double sides[3], nearest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
-    const Vec3 p = c[i].across, q = c[(i + 1) % 3].across;
+    const Vec3 p = c[i]->across, q = c[(i + 1) % 3]->across;
     sides[i] = dot(axis, cross(p, q));
     nearest = std::min(nearest, AxisFrame::distance_of_segment(p, q));
   }
@@ -51,7 +65,7 @@ struct Sector {
 };
 
 Sector both(const Sector& x, const Sector& y) {
-  const double from_x = std::remainder(y.center - x.center, 2 * kHalfTurn);
+  const double from_x = nearest_remainder(y.center - x.center, 2 * kHalfTurn);
   const double low = std::min(-x.half, from_x - y.half), high = std::max(x.half, from_x + y.half);
   return {x.center + (low + high) / 2, std::min(kHalfTurn, (high - low) / 2)};
 }
@@ -64,9 +78,9 @@ void set_sector(RadialBounds& node, const Sector& sector, const AxisFrame& axis)
 }
 
 /// The sector of a triangle that the axis does not pass through.
-Sector sector_of(const Corner (&corners)[3], const AxisFrame& axis) {
-  Sector sector{axis.angle(corners[0].across), 0};
-  for (int i = 1; i < 3; ++i) sector = both(sector, {axis.angle(corners[i].across), 0});
+Sector sector_of(const Corners& corners) {
+  Sector sector{corners[0]->angle, 0};
+  for (int i = 1; i < 3; ++i) sector = both(sector, {corners[i]->angle, 0});
   return sector;
 }
 
@@ -91,39 +105,41 @@ float radial_deviation_of(const Wall& wall, const RadialBounds& node) {
   return whole ? rounded_up(deviation) : std::numeric_limits<float>::infinity();
 }
 
-RadialBounds about_axis(const AxisFrame& axis, const Triangle& triangle, Sector& sector, Wall& wall) {
-  Corner corners[3];
-  double size = 0;
-  for (int i = 0; i < 3; ++i) {
-    corners[i].along = axis.along(triangle[i]);
-    corners[i].across = axis.across(triangle[i]);
-    size = std::max({size, max_abs(triangle[i]), max_abs(axis.point)});
-  }
+/// The triangles of a node.
+struct Bounded {
+  RadialBounds bounds;  // without its sector and deviation
+  Sector sector;
+  Wall wall;
+};
+
+Bounded about_axis(const AxisFrame& axis, const Triangle& triangle, const Corners& corners) {
   const Vec3 normal = normal_unscaled(triangle);
-  const double rounding = kRounding * size;
+  double size = max_abs(axis.point);
   double max_radius = 0, begin = std::numeric_limits<double>::infinity(), end = -begin;
-  RadialBounds node;
+  Bounded face;
+  RadialBounds& node = face.bounds;
   bool faces_out = true, faces_in = true;
-  for (const Corner& c : corners) {
-    const double distance = length(c.across);
-    max_radius = std::max(max_radius, distance);
-    begin = std::min(begin, c.along);
-    end = std::max(end, c.along);
-    const double enough = kFacing * distance * length(normal), facing = dot(normal, c.across);
+  for (const Corner* c : corners) {
+    size = std::max(size, c->magnitude);
+    max_radius = std::max(max_radius, c->distance);
+    begin = std::min(begin, c->along);
+    end = std::max(end, c->along);
+    const double enough = kFacing * c->distance * length(normal), facing = dot(normal, c->across);
     faces_out &= facing > enough;
     faces_in &= facing < -enough;
   }
+  const double rounding = kRounding * size;
   const bool lies_across = length(cross(normal, axis.direction)) <= kAcross * length(normal);
   node.clear_out = faces_out || lies_across;
   node.clear_in = faces_in || lies_across;
   const double min_radius = min_distance(corners, axis.direction);
-  sector = min_radius > rounding ? sector_of(corners, axis) : Sector{};
+  if (min_radius > rounding) face.sector = sector_of(corners);
   node.min_radius = -rounded_up(rounding - min_radius);
   node.max_radius = rounded_up(max_radius + rounding);
   node.begin = -rounded_up(rounding - begin);
   node.end = rounded_up(end + rounding);
-  if (!lies_across) wall = {node.min_radius, node.max_radius, length(normal) / 2};
-  return node;
+  if (!lies_across) face.wall = {node.min_radius, node.max_radius, length(normal) / 2};
+  return face;
 }
 
 RadialBounds both(const RadialBounds& x, const RadialBounds& y) {
@@ -136,6 +152,10 @@ RadialBounds both(const RadialBounds& x, const RadialBounds& y) {
           0,
           x.clear_out && y.clear_out,
           x.clear_in && y.clear_in};
+}
+
+Bounded both(const Bounded& x, const Bounded& y) {
+  return {both(x.bounds, y.bounds), both(x.sector, y.sector), both(x.wall, y.wall)};
 }
 
 }  // namespace
@@ -184,26 +204,25 @@ const RadialBoundsList& RevolutionSurface::bounds_about(std::size_t axis) const 
     unknown.max_radius = std::numeric_limits<float>::infinity();
     known.nodes.slots_ = &slots_;
     known.nodes.nodes_.assign(1 + large_count_, unknown);
-    std::vector<RadialBounds> nodes(nodes_.size());
-    std::vector<Sector> sectors(nodes_.size());
-    std::vector<Wall> walls(nodes_.size());
-    const std::vector<std::uint32_t> order = node_order();
-    for (auto i = order.rbegin(); i != order.rend(); ++i) {
-      const ObbNode& node = nodes_[*i];
+    std::vector<Corner> corners;
+    corners.reserve(vertices_.size());
+    for (const Vec3& p : vertices_) corners.push_back(corner_at(p, frame));
+    // Depth first: the nodes of a subtree are next to each other in memory.
+    const std::function<Bounded(std::uint32_t)> bound = [&](std::uint32_t i) {
+      const ObbNode& node = nodes_[i];
       if (node.leaf()) {
         const Face& f = faces_[node.child];
         const Triangle triangle{{vertices_[f.v[0]], vertices_[f.v[1]], vertices_[f.v[2]]}};
-        nodes[*i] = about_axis(frame, triangle, sectors[*i], walls[*i]);
-        continue;
+        return about_axis(frame, triangle, {&corners[f.v[0]], &corners[f.v[1]], &corners[f.v[2]]});
       }
-      nodes[*i] = both(nodes[node.child], nodes[node.child + 1]);
-      sectors[*i] = both(sectors[node.child], sectors[node.child + 1]);
-      walls[*i] = both(walls[node.child], walls[node.child + 1]);
-      if (slots_[*i] == 0) continue;
-      set_sector(nodes[*i], sectors[*i], frame);
-      nodes[*i].radial_deviation = radial_deviation_of(walls[*i], nodes[*i]);
-      known.nodes.nodes_[slots_[*i]] = nodes[*i];
-    }
+      Bounded all = both(bound(node.child), bound(node.child + 1));
+      if (slots_[i] == 0) return all;
+      set_sector(all.bounds, all.sector, frame);
+      all.bounds.radial_deviation = radial_deviation_of(all.wall, all.bounds);
+      known.nodes.nodes_[slots_[i]] = all.bounds;
+      return all;
+    };
+    if (large_count_ > 0) bound(0);
   });
   return known.nodes;
 }

@@ -74,6 +74,7 @@ RevolutionAxis axis_of(Span<const Vec3> vertices, Span<const Face> faces, const 
   if (!(square > 0)) return axis;
   const Vec3 center = from + cross(length_squared(p) * q - length_squared(q) * p, normal) / (2 * square);
   axis.point = middle + across(center - middle);
+  axis.min_radius = axis.max_radius = length(center - from);
   axis.turn = std::asin(std::min(1.0, sine));
   return axis;
 }
@@ -83,14 +84,17 @@ struct AxisSum {
   Vec3 offset;  // from the middle of the mesh's box, times the turn
   Vec3 direction;
   double turn = 0;
+  double min_radius = std::numeric_limits<double>::infinity(), max_radius = 0;
 
   void add(const RevolutionAxis& axis) {
+    min_radius = std::min(min_radius, axis.min_radius);
+    max_radius = std::max(max_radius, axis.max_radius);
     const double sign = dot(direction, axis.direction) < 0 ? -1 : 1;
     offset += axis.turn * axis.point;
     direction += sign * axis.turn * axis.direction;
     turn += axis.turn;
   }
-  RevolutionAxis mean() const { return {offset / turn, normalized(direction), turn}; }
+  RevolutionAxis mean() const { return {offset / turn, normalized(direction), turn, min_radius, max_radius}; }
 };
 
 bool more_turn(const RevolutionAxis& x, const RevolutionAxis& y) {

@@ -5,6 +5,7 @@
 #include "dismantle/geometry/triangle_mesh.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace dismantle {
@@ -16,6 +17,8 @@ struct RevolutionAxis {
   /// The angle by which the surface turns about the axis, summed over the edges along it [rad]: a bore cut n times
   /// along its length has 2 pi (n + 1).
   double turn = 0;
+  /// The smallest and the largest distance of these edges [mm]; without limits where they are not known.
+  double min_radius = 0, max_radius = std::numeric_limits<double>::infinity();
   friend bool operator==(const RevolutionAxis&, const RevolutionAxis&) = default;
 };
 

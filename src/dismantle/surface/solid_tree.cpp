@@ -42,10 +42,15 @@ struct Recognised {
 void add_thread_axes(Recognised& found) {
   for (const ThreadAxis& thread : found.threads) {
     const RevolutionAxis own{thread.point, thread.direction};
-    const auto same = [&](const RevolutionAxis& axis) {
+    const auto same = std::find_if(found.axes.begin(), found.axes.end(), [&](const RevolutionAxis& axis) {
       return same_axis(own, axis, kSameAxis, kSameAxis * thread.max_radius);
-    };
-    if (std::none_of(found.axes.begin(), found.axes.end(), same)) found.axes.push_back(own);
+    });
+    if (same == found.axes.end()) {
+      found.axes.push_back(own);
+    } else {
+      same->min_radius = own.min_radius;
+      same->max_radius = own.max_radius;
+    }
   }
 }
 

@@ -16,8 +16,10 @@ namespace {
 constexpr std::size_t kMaxPairs = 3;
 /// Axes are near each other where the sine of the angle between them is at most this,
 constexpr double kMaxSine = 0.1;
-/// and the distance of one's point from the other is at most this share of the smaller component's size.
+/// and the distance of one's point from the other is at most this share of the smaller component's size,
 constexpr double kMaxOff = 0.05;
+/// and no larger than the room between the cylinders about the one and the other, or than this share of that size.
+constexpr double kOffWithoutRoom = 0.002;
 /// Bound of the rounding of positions along axes [mm].
 constexpr double kPositionRounding = 1e-6;
 /// Gaps are bounded above by this share of the outer surface's radius.
@@ -98,14 +100,17 @@ std::optional<CylinderFit> RadialSweep::fit(std::uint32_t moving, std::uint32_t 
 
 std::vector<RadialSweeps::AxisPair> RadialSweeps::nearest_pairs() const {
   std::vector<AxisPair> pairs;
-  const double max_off = kMaxOff * std::min(moving_->size(), fixed_->size());
+  const double size = std::min(moving_->size(), fixed_->size());
   for (std::size_t i = 0; i < moving_->axes().size(); ++i) {
     const Line a = moved(motion_.t0, line_of(moving_->axes()[i], moving_origin_));
     for (std::size_t j = 0; j < fixed_->axes().size(); ++j) {
       const Line b = line_of(fixed_->axes()[j], fixed_origin_);
       if (length_squared(cross(a.direction, b.direction)) > kMaxSine * kMaxSine) continue;
       const double off = length(across(a.point - b.point, b.direction));
-      if (off <= max_off) pairs.push_back({i, j, off});
+      const RevolutionAxis &of_moving = moving_->axes()[i], &of_fixed = fixed_->axes()[j];
+      const double room =
+          std::max(of_moving.max_radius - of_fixed.min_radius, of_fixed.max_radius - of_moving.min_radius);
+      if (off <= std::min(kMaxOff * size, std::max(kOffWithoutRoom * size, room))) pairs.push_back({i, j, off});
     }
   }
   std::sort(pairs.begin(), pairs.end(), [](const AxisPair& x, const AxisPair& y) {
