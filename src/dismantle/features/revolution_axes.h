@@ -17,8 +17,10 @@ struct RevolutionAxis {
   /// The angle by which the surface turns about the axis, summed over the edges along it [rad]: a bore cut n times
   /// along its length has 2 pi (n + 1).
   double turn = 0;
-  /// The smallest and the largest distance of these edges [mm]; without limits where they are not known.
-  double min_radius = 0, max_radius = std::numeric_limits<double>::infinity();
+  /// The smallest distance of these edges [mm]; 0 where it is not known.
+  double min_radius = 0;
+  /// Their largest distance [mm]; infinite where it is not known.
+  double max_radius = std::numeric_limits<double>::infinity();
   friend bool operator==(const RevolutionAxis&, const RevolutionAxis&) = default;
 };
 

@@ -35,8 +35,9 @@ struct CoaxialRequest {
 
 /// The part of a common axis along which two components overlap much deeper than elsewhere: the run-out of a thread.
 struct DeepRange {
-  double begin = 0, end = 0;  ///< Positions along the axis, as AxisFrame has them [mm].
-  double elsewhere = 0;       ///< No vertex outside the range is deeper [mm].
+  double begin = 0;      ///< Position along the axis, as AxisFrame has it [mm].
+  double end = 0;        ///< The same of its other end [mm].
+  double elsewhere = 0;  ///< No vertex outside the range is deeper [mm].
 
   /// True if a position along the axis is in the range, or no further than `beyond` from it [mm].
   bool contains(double along, double beyond) const { return along >= begin - beyond && along <= end + beyond; }
