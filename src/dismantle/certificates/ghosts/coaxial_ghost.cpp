@@ -21,8 +21,8 @@ constexpr double kAcross = 0.05;
 
 /// Distances from a surface are looked up to this many times the depth of the pair.
 constexpr double kBeyondDepth = 1.1;
-/// Vertices are in deep places where they are deeper than this many times what one of these shares of all vertices
-/// that are inside are not.
+/// Vertices are deep if they are deeper than this many times the depth that one of these shares of all vertices that
+/// are inside does not exceed.
 constexpr double kDeepShare = 1.6;
 constexpr double kShares[] = {0.5, 0.75, 0.9};
 /// Elsewhere, the depth is at most this share of that of the pair, and the range is at most this share of the length

@@ -122,8 +122,8 @@ class GhostSide {
   }
 
  private:
-  /// About an axis that the two share, what engages moved out of the way: only in a range of the axis where they are
-  /// much deeper than elsewhere, so that the rest still holds them, or all of it.
+  /// About an axis that the two share, what engages moved out of the way: only in a range where they are much deeper
+  /// than elsewhere, so that the rest still holds them, or all of it.
   std::optional<Found> find_coaxial() {
     if (std::exchange(tried_coaxial_, true)) return std::nullopt;
     const auto axes = common_axes(*own_.tree, *other_.tree, kSameAxis * depth_limit_);
@@ -131,12 +131,12 @@ class GhostSide {
     const double length = std::exchange(max_length_, longest());
     std::optional<std::vector<Vec3>> found;
     for (const RevolutionAxis& axis : axes)
-      for (const DeepRange& range : deep_ranges(own_, other_, axis, kPlay * request_.tolerance, request_.depth))
-        if (!found) found = find_in(range, axis);
-    const std::vector<Vec3> start = retracted({});
+      if (!found)
+        for (const DeepRange& range : deep_ranges(own_, other_, axis, kPlay * request_.tolerance, request_.depth))
+          if (!found) found = find_in(range, axis);
     for (const RevolutionAxis& axis : axes)
       for (const bool whole : {true, false})
-        if (!found) found = coaxial(axis, start, whole, {});
+        if (!found) found = coaxial(axis, retracted({}), whole, {});
     max_length_ = length;
     return found ? std::optional(Found{std::move(*found), true}) : std::nullopt;
   }
@@ -148,12 +148,12 @@ class GhostSide {
     const std::vector<Vec3> retracted = this->retracted(elsewhere);
     const AxisFrame frame(axis.point, axis.direction);
     std::vector<bool> deep(retracted.size());
-    // Vertices at one position move alike, also where rounding puts them on two sides of the border.
-    for (std::size_t v = 0; v < deep.size(); ++v)
-      deep[v] = range.contains(frame.along(own_.tree->vertices[surface().first()[v]]), max_length_);
     std::vector<Vec3> start = retracted;
-    for (std::size_t v = 0; v < deep.size(); ++v)
+    for (std::size_t v = 0; v < deep.size(); ++v) {
+      // Vertices at one position move alike, also where rounding puts them on two sides of the border.
+      deep[v] = range.contains(frame.along(own_.tree->vertices[surface().first()[v]]), max_length_);
       if (deep[v]) start[v] = usual_->vertices[v];
+    }
     if (auto found = coaxial(axis, start, true, deep)) return found;
     return coaxial(axis, retracted, true, deep);
   }
