@@ -8,8 +8,8 @@ namespace dismantle {
 /// A full turn, 2 pi [rad].
 inline constexpr double kTurn = 6.283185307179586;
 
-/// What is left of a value when the nearest whole number of periods is taken from it: within half a period of 0, up to
-/// rounding. Unlike std::remainder() not exact, and a fraction of its time.
+/// The value less the nearest multiple of the period: within half a period of 0. A fast std::remainder() with a
+/// rounding error of a few units in the last place of the value.
 inline double nearest_remainder(double value, double period) {
   return value - period * std::nearbyint(value / period);
 }

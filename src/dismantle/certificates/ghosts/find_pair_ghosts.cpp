@@ -122,8 +122,8 @@ class GhostSide {
   }
 
  private:
-  /// About an axis that the two share, what engages moved out of the way: only in a range where they are much deeper
-  /// than elsewhere, so that the rest still holds them, or all of it.
+  /// Moves what engages about a shared axis out of the way: where possible only in a range where the overlap is much
+  /// deeper than elsewhere, so that the rest still holds the two together.
   std::optional<Found> find_coaxial() {
     if (std::exchange(tried_coaxial_, true)) return std::nullopt;
     const auto axes = common_axes(*own_.tree, *other_.tree, kSameAxis * depth_limit_);
@@ -141,7 +141,7 @@ class GhostSide {
     return found ? std::optional(Found{std::move(*found), true}) : std::nullopt;
   }
 
-  /// What engages moved out of the way in a range of the axis, faces elsewhere retracted by what they need there.
+  /// Moves what engages out of the way within a range of the axis only; retracts the faces outside it by their needs.
   std::optional<std::vector<Vec3>> find_in(const DeepRange& range, const RevolutionAxis& axis) {
     std::vector<double> elsewhere = needed(kMargins[0]);
     for (double& n : elsewhere) n = std::max(std::min(n, range.elsewhere), request_.everywhere);

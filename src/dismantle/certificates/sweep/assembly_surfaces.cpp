@@ -11,12 +11,14 @@ namespace dismantle {
 
 namespace {
 
-/// Computes the radial bounds of two trees about the axes that are nearest to each other in the assembled state.
-void prepare_radial_bounds(const SolidTree& a, const SolidTree& b) {
-  if (!a.revolution || !b.revolution) return;
+/// Finds the mating threads of two trees and computes their radial bounds about the axes that are nearest to each other
+/// in the assembled state.
+std::vector<ThreadMatch> prepare_radial_of(const SolidTree& a, const SolidTree& b) {
+  if (!a.revolution || !b.revolution) return {};
   PairMotion still;
   still.t0 = still.t1 = {{}, a.tree.origin - b.tree.origin};
   RadialSweeps(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin, still).get();
+  return match_threads(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin);
 }
 
 }  // namespace
@@ -112,8 +114,7 @@ void AssemblySurfaces::prepare_radial(const Executor& executor) {
     const auto& [pair, of] = near[i];
     const SolidTree& a = of == GhostOf::First ? ghost(pair.first) : solid(pair.first);
     const SolidTree& b = of == GhostOf::Second ? ghost(pair.second) : solid(pair.second);
-    threads[i] = match_threads(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin);
-    prepare_radial_bounds(a, b);
+    threads[i] = prepare_radial_of(a, b);
   });
   for (std::size_t i = 0; i < near.size(); ++i)
     if (!threads[i].empty()) threads_[near[i]] = std::move(threads[i]);
@@ -162,15 +163,11 @@ void AssemblySurfaces::add_guards(std::vector<FoundGuard> guards, const Executor
     for (int k = 0; k < 2; ++k)
       made[i].ghosts[k] =
           std::make_shared<const SolidTree>(make_displaced_tree(solid(ids[k]), std::move(found.ghosts[k]), Executor{}));
-    const auto prepare_radial = [&](int ghost, const SolidTree& a, const SolidTree& b) {
-      std::vector<ThreadMatch> threads;
-      if (a.revolution && b.revolution)
-        threads = match_threads(*a.revolution, a.tree.origin, *b.revolution, b.tree.origin);
-      made[i].threads[ghost] = std::make_shared<const std::vector<ThreadMatch>>(std::move(threads));
-      prepare_radial_bounds(a, b);
+    const auto prepare = [](const SolidTree& a, const SolidTree& b) {
+      return std::make_shared<const std::vector<ThreadMatch>>(prepare_radial_of(a, b));
     };
-    prepare_radial(0, *made[i].ghosts[0], solid(found.b));
-    prepare_radial(1, solid(found.a), *made[i].ghosts[1]);
+    made[i].threads[0] = prepare(*made[i].ghosts[0], solid(found.b));
+    made[i].threads[1] = prepare(solid(found.a), *made[i].ghosts[1]);
   });
   for (std::size_t i = 0; i < guards.size(); ++i) guarded_[{guards[i].a, guards[i].b}] = std::move(made[i]);
 }
