@@ -19,6 +19,13 @@ double squared_distance_to_segment(Vec3 a, Vec3 b, Vec3 point) {
   return dot(offset, offset);
 }
 
+/// True if the plane of a triangle is at least `distance` from a point, and so is the triangle.
+bool plane_is_beyond(const Triangle& t, Vec3 point, double distance) {
+  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+  const double height = dot(normal, point - t[0]);
+  return height * height >= distance * distance * dot(normal, normal) && dot(normal, normal) > 0;
+}
+
 double squared_distance_to_box(const BoxNode& node, Vec3 point) {
   const Vec3 offset = point - node.center;
   double squared = 0;
@@ -58,12 +65,13 @@ double side_of_edge(Vec3 a, Vec3 b, Vec3 point) {
   return (a.x - point.x) * (b.y - point.y) - (b.x - point.x) * (a.y - point.y);
 }
 
-bool ray_meets_box(const BoxNode& node, Vec3 point, Vec3 direction, double margin) {
+/// @param slowness 1 / the direction, by coordinate
+bool ray_meets_box(const BoxNode& node, Vec3 point, Vec3 slowness, double margin) {
   double first = 0, last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const double half = node.half[i] + margin;
-    const double near = (node.center[i] - half - point[i]) / direction[i];
-    const double far = (node.center[i] + half - point[i]) / direction[i];
+    const double near = (node.center[i] - half - point[i]) * slowness[i];
+    const double far = (node.center[i] + half - point[i]) * slowness[i];
     first = std::max(first, std::min(near, far));
     last = std::min(last, std::max(near, far));
   }
@@ -159,22 +167,28 @@ void AuditBody::find_pieces() {
 
 SurfacePoint AuditBody::closest(Vec3 point, std::uint32_t hint) const {
   SurfacePoint best{distance_to_triangle(triangle(hint), point), hint};
-  std::uint32_t stack[128];
+  struct Open {
+    std::uint32_t node = 0;
+    double squared = 0;  // distance from its box
+  } stack[128];
   int depth = 0;
-  stack[depth++] = 0;
+  stack[depth++] = {0, squared_distance_to_box(nodes_[0], point)};
   while (depth > 0) {
-    const std::uint32_t i = stack[--depth];
-    const BoxNode& node = nodes_[i];
-    if (squared_distance_to_box(node, point) >= best.distance * best.distance) continue;
+    const Open open = stack[--depth];
+    if (open.squared >= best.distance * best.distance) continue;
+    const BoxNode& node = nodes_[open.node];
     if (node.leaf()) {
-      const double distance = distance_to_triangle(triangle(node.face), point);
+      const Triangle t = triangle(node.face);
+      if (plane_is_beyond(t, point, best.distance)) continue;
+      const double distance = distance_to_triangle(t, point);
       if (distance < best.distance) best = {distance, node.face};
       continue;
     }
-    const bool left_is_nearer =
-        squared_distance_to_box(nodes_[i + 1], point) <= squared_distance_to_box(nodes_[node.right], point);
-    stack[depth++] = left_is_nearer ? node.right : i + 1;
-    stack[depth++] = left_is_nearer ? i + 1 : node.right;
+    const Open left{open.node + 1, squared_distance_to_box(nodes_[open.node + 1], point)};
+    const Open right{node.right, squared_distance_to_box(nodes_[node.right], point)};
+    const bool left_is_nearer = left.squared <= right.squared;
+    stack[depth++] = left_is_nearer ? right : left;
+    stack[depth++] = left_is_nearer ? left : right;
   }
   return best;
 }
@@ -236,8 +250,9 @@ AuditBody::Crossing AuditBody::crossing(std::uint32_t face, Vec3 point, const Ma
 
 AuditBody::Winding AuditBody::winding(Vec3 point, const Mat3& frame) const {
   const double margin = kBoxMargin * nodes_[0].reach;
+  const Vec3 direction = frame.row[2], slowness{1 / direction.x, 1 / direction.y, 1 / direction.z};
   Winding result;
-  visit_faces([&](const BoxNode& node) { return ray_meets_box(node, point, frame.row[2], margin); },
+  visit_faces([&](const BoxNode& node) { return ray_meets_box(node, point, slowness, margin); },
               [&](std::uint32_t face) {
                 const Crossing found = crossing(face, point, frame);
                 result.certain = result.certain && found.certain;

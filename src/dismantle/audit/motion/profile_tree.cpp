@@ -17,6 +17,11 @@ constexpr double kFlat = 4;
 /// Directions within this angle of r count as r [rad].
 constexpr double kAlongR = 0.04;
 
+/// The way from p forth to q, both from 0 to the circumference.
+double way_on_circle(double p, double q, double circumference) {
+  return q < p ? q - p + circumference : q - p;
+}
+
 double on_circle(double value, double circumference) {
   const double rest = std::fmod(value, circumference);
   return rest < 0 ? rest + circumference : rest;
@@ -166,7 +171,7 @@ Arc united(const Arc& p, const Arc& q, double circumference) {
     const double low = std::min(p.low, q.low);
     return {low, std::max(p.high(), q.high()) - low};
   }
-  const double to_q = on_circle(q.low - p.low, circumference), to_p = on_circle(p.low - q.low, circumference);
+  const double to_q = way_on_circle(p.low, q.low, circumference), to_p = way_on_circle(q.low, p.low, circumference);
   const double from_p = std::max(p.width, to_q + q.width), from_q = std::max(q.width, to_p + p.width);
   if (!(std::min(from_p, from_q) < circumference)) return full_circle(circumference);
   return from_p <= from_q ? Arc{p.low, from_p} : Arc{q.low, from_q};
@@ -174,9 +179,8 @@ Arc united(const Arc& p, const Arc& q, double circumference) {
 
 double gap(const Arc& p, const Arc& q, double circumference) {
   if (circumference == 0) return std::max(q.low - p.high(), p.low - q.high());
-  const double ahead = on_circle(q.low - p.low, circumference) - p.width;
-  const double behind = on_circle(p.low - q.low, circumference) - q.width;
-  return std::min(ahead, behind);
+  return std::min(way_on_circle(p.low, q.low, circumference) - p.width,
+                  way_on_circle(q.low, p.low, circumference) - q.width);
 }
 
 ProfileFrame::ProfileFrame(double pitch_of_motion, const std::array<double, kDirections - 1>& angles)
@@ -192,8 +196,8 @@ double ProfileFrame::max_difference(int k, double distance, double radius) const
   if (k == 0 || pitch == 0) return distance;
   const double nearest = radius - distance;
   if (!(nearest > 0)) return 1e300;
-  const double slope = pitch / nearest;
-  return distance * std::sqrt(1 + of_u[k] * of_u[k] * slope * slope);
+  const double slope = of_u[k] * pitch / nearest;
+  return distance * (1 + slope * slope / 2);  // more than the square root of 1 + slope^2
 }
 
 ProfileFrame profile_frame(const PairMotion& pair, const HelicalMotion& motion) {
@@ -269,7 +273,7 @@ struct ProfileTree::Builder {
     double own = 0;
     for (auto it = begin; it != end; ++it) own += faces[*it].along[k].width / count;
     const auto position = [&](const Arc& arc, const Arc& whole, double circumference) {
-      return circumference == 0 ? arc.middle() : on_circle(arc.low - whole.low, circumference) + arc.width / 2;
+      return circumference == 0 ? arc.middle() : way_on_circle(whole.low, arc.low, circumference) + arc.width / 2;
     };
     if (node.along[k].width > kFlat * own && node.along[k].width > 0)
       return by([&](std::uint32_t f) { return position(faces[f].along[k], node.along[k], frame.circumference[k]); });

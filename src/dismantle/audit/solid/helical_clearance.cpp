@@ -31,10 +31,14 @@ class ProfileMeeting {
                  const ProfileFrame& frame, bool turns, double margin)
       : tree_(tree), other_(other), motion_(motion), frame_(frame), turns_(turns), margin_(margin) {}
 
-  /// True for each of `count` triangles that may come within the margin of one of the others.
-  std::vector<bool> run(std::size_t count) {
-    met_.assign(count, false);
-    done_.assign(2 * count, false);
+  /// True for each of the triangles in question that may come within the margin of one of the others.
+  std::vector<bool> run(const std::vector<bool>& in_question) {
+    met_.assign(in_question.size(), false);
+    done_.assign(2 * in_question.size() - 1, false);
+    for (std::size_t i = done_.size(); i-- > 0;) {
+      const ProfileNode& node = tree_.node(static_cast<std::uint32_t>(i));
+      done_[i] = node.leaf() ? !in_question[node.face] : done_[i + 1] && done_[node.right];
+    }
     visit(0, 0);
     return std::move(met_);
   }
@@ -111,22 +115,23 @@ class ProfileMeeting {
   const ProfileFrame& frame_;
   const bool turns_;
   const double margin_;
-  std::vector<bool> met_, done_;  // triangles that meet, and nodes all of which meet
+  std::vector<bool> met_, done_;  // triangles that meet, and nodes of which all that are in question do
 };
 
 /// A part of a face.
 struct FacePart {
   std::uint32_t face = 0;  // of its body
   Triangle corners;        // at the begin of the run, in the frame of a
+  bool open = true;        // it is not known to be clear
 };
 
 void add_quarters(const FacePart& part, std::vector<FacePart>& to) {
   const Triangle& t = part.corners;
   const Vec3 m[3] = {(t[0] + t[1]) / 2.0, (t[1] + t[2]) / 2.0, (t[2] + t[0]) / 2.0};
-  to.push_back({part.face, {{t[0], m[0], m[2]}}});
-  to.push_back({part.face, {{m[0], t[1], m[1]}}});
-  to.push_back({part.face, {{m[2], m[1], t[2]}}});
-  to.push_back({part.face, {{m[0], m[1], m[2]}}});
+  to.push_back({part.face, {{t[0], m[0], m[2]}}, part.open});
+  to.push_back({part.face, {{m[0], t[1], m[1]}}, part.open});
+  to.push_back({part.face, {{m[2], m[1], t[2]}}, part.open});
+  to.push_back({part.face, {{m[0], m[1], m[2]}}, part.open});
 }
 
 std::vector<Triangle> corners_of(const std::vector<FacePart>& parts) {
@@ -170,26 +175,19 @@ class HelicalClearance {
     // A copy is by `most_` further from the centre than its body.
     margin_ = motion.deviation * (1 + most_ / pair.b->surface().node(0).reach) + 2 * pair.motion.rounding;
     for (const bool of_b : {false, true}) near_[of_b] = all_faces(of_b);
-    int level = 0;
-    while (separate(level < kMaxQuarterings)) ++level;
+    separate();
+    // Where an overlap is allowed, few faces are left after this, while those that overlap meet in every part.
+    retract();
+    for (int level = 0; level < kMaxQuarterings && quarter(); ++level) separate();
+    retract();
   }
 
   /// The faces of which all parts, or shifted copies of them, are apart from the other component, and outside.
   std::vector<bool> clear_faces(bool of_b) const {
-    std::vector<FacePart> open;  // parts that are not known to be clear
-    for (const FacePart& part : cover_[of_b])
-      if (inside(of_b, part.corners)) open.push_back(part);
-    open.insert(open.end(), near_[of_b].begin(), near_[of_b].end());
-    if (most_ > 0 && !open.empty()) {
-      std::vector<FacePart> others = cover_[!of_b];
-      others.insert(others.end(), near_[!of_b].begin(), near_[!of_b].end());
-      const ProfileTree other(corners_of(others), motion_, frame_);
-      const std::vector<Vec3> corner_normals = normals_at_corners(of_b ? *pair_.b : *pair_.a);
-      for (const Retraction way : {Retraction::Back, Retraction::BackAtCorner, Retraction::Forth})
-        open = still_open(of_b, std::move(open), other, way, corner_normals);
-    }
     std::vector<bool> clear(body(of_b).face_count(), true);
-    for (const FacePart& part : open) clear[part.face] = false;
+    for (const std::vector<FacePart>* parts : {&near_[of_b], &apart_[of_b]})
+      for (const FacePart& part : *parts)
+        if (part.open) clear[part.face] = false;
     return clear;
   }
 
@@ -200,29 +198,63 @@ class HelicalClearance {
     std::vector<FacePart> parts;
     for (std::uint32_t f = 0; f < body(of_b).face_count(); ++f) {
       const Triangle t = body(of_b).triangle(f);
-      parts.push_back({f, of_b ? transformed(start_, t) : t});
+      parts.push_back({f, of_b ? transformed(start_, t) : t, true});
     }
     return parts;
   }
 
-  /// Sorts out the parts that are apart from those of the other component, and quarters the others where that is
-  /// wanted and they are not too many. @return false where it did not
-  bool separate(bool quarter) {
-    if (near_[0].empty() || near_[1].empty()) return false;
+  /// Sorts out the open parts that are apart from those of the other component; those that are outside are clear.
+  void separate() {
+    if (near_[0].empty() || near_[1].empty()) return;
     const ProfileTree trees[2] = {{corners_of(near_[0]), motion_, frame_}, {corners_of(near_[1]), motion_, frame_}};
-    std::vector<FacePart> met[2];
     for (const bool of_b : {false, true}) {
+      std::vector<bool> open;
+      for (const FacePart& part : near_[of_b]) open.push_back(part.open);
       const std::vector<bool> meets =
-          ProfileMeeting(trees[of_b], trees[!of_b], motion_, frame_, of_b, margin_).run(near_[of_b].size());
-      for (std::size_t i = 0; i < meets.size(); ++i) (meets[i] ? met : cover_)[of_b].push_back(near_[of_b][i]);
+          ProfileMeeting(trees[of_b], trees[!of_b], motion_, frame_, of_b, margin_).run(open);
+      std::vector<FacePart> near;
+      for (std::size_t i = 0; i < meets.size(); ++i) {
+        FacePart& part = near_[of_b][i];
+        const bool is_apart = part.open && !meets[i];
+        if (is_apart) part.open = inside(of_b, part.corners);
+        (is_apart ? apart_[of_b] : near).push_back(part);
+      }
+      near_[of_b] = std::move(near);
     }
-    quarter = quarter && met[0].size() + met[1].size() <= kMaxParts / 4;
+  }
+
+  /// Quarters all parts that may meet, where some are open and they are not too many. @return false where it did not
+  bool quarter() {
+    const auto is_open = [](const FacePart& part) { return part.open; };
+    const auto any_open = [&](const std::vector<FacePart>& parts) {
+      return std::any_of(parts.begin(), parts.end(), is_open);
+    };
+    if (!any_open(near_[0]) && !any_open(near_[1])) return false;
+    if (near_[0].size() + near_[1].size() > kMaxParts / 4) return false;
+    for (std::vector<FacePart>& near : near_) {
+      const std::vector<FacePart> whole = std::move(near);
+      near.clear();
+      for (const FacePart& part : whole) add_quarters(part, near);
+    }
+    return true;
+  }
+
+  /// Finds the open parts of which shifted copies are clear.
+  void retract() {
+    if (most_ <= 0) return;
     for (const bool of_b : {false, true}) {
-      near_[of_b].clear();
-      if (!quarter) near_[of_b] = std::move(met[of_b]);
-      for (const FacePart& part : met[of_b]) add_quarters(part, near_[of_b]);
+      std::vector<FacePart*> open;
+      for (std::vector<FacePart>* parts : {&near_[of_b], &apart_[of_b]})
+        for (FacePart& part : *parts)
+          if (part.open) open.push_back(&part);
+      std::vector<FacePart> others = apart_[!of_b];
+      others.insert(others.end(), near_[!of_b].begin(), near_[!of_b].end());
+      if (open.empty() || others.empty()) continue;
+      const ProfileTree other(corners_of(others), motion_, frame_);
+      const std::vector<Vec3> corner_normals = normals_at_corners(of_b ? *pair_.b : *pair_.a);
+      for (const Retraction way : {Retraction::Back, Retraction::BackAtCorner, Retraction::Forth})
+        open = still_open(of_b, std::move(open), other, way, corner_normals);
     }
-    return quarter;
   }
 
   /// True if the middle of a triangle, in the frame of a at the begin, is inside the other component.
@@ -245,20 +277,24 @@ class HelicalClearance {
     return -corner_normals[points.surface().face(part.face).v[nearest]];
   }
 
-  /// The parts of which no shifted copy is apart from the other component and outside.
-  std::vector<FacePart> still_open(bool of_b, std::vector<FacePart> parts, const ProfileTree& other, Retraction way,
-                                   const std::vector<Vec3>& corner_normals) const {
+  /// Tries one copy of each part. @return the parts that stay open
+  std::vector<FacePart*> still_open(bool of_b, std::vector<FacePart*> parts, const ProfileTree& other, Retraction way,
+                                    const std::vector<Vec3>& corner_normals) const {
     if (parts.empty()) return parts;
-    std::vector<Triangle> copies = corners_of(parts);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const Vec3 shift = most_ * direction(of_b, parts[i], way, corner_normals);
-      for (int k = 0; k < 3; ++k) copies[i][k] += of_b ? start_.rotation * shift : shift;
+    std::vector<Triangle> copies;
+    for (const FacePart* part : parts) {
+      const Vec3 shift = most_ * direction(of_b, *part, way, corner_normals);
+      copies.push_back(part->corners);
+      for (int k = 0; k < 3; ++k) copies.back()[k] += of_b ? start_.rotation * shift : shift;
     }
     const ProfileTree tree(copies, motion_, frame_);
-    const std::vector<bool> meets = ProfileMeeting(tree, other, motion_, frame_, of_b, margin_).run(copies.size());
-    std::vector<FacePart> open;
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      if (meets[i] || inside(of_b, copies[i])) open.push_back(parts[i]);
+    const std::vector<bool> meets =
+        ProfileMeeting(tree, other, motion_, frame_, of_b, margin_).run(std::vector<bool>(copies.size(), true));
+    std::vector<FacePart*> open;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      parts[i]->open = meets[i] || inside(of_b, copies[i]);
+      if (parts[i]->open) open.push_back(parts[i]);
+    }
     return open;
   }
 
@@ -269,7 +305,7 @@ class HelicalClearance {
   double most_;
   double margin_ = 0;
   std::vector<FacePart> near_[2];   // of a, of b: those that may come within the margin of each other
-  std::vector<FacePart> cover_[2];  // the others
+  std::vector<FacePart> apart_[2];  // the others
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 namespace dismantle::audit {
 
@@ -85,20 +86,54 @@ struct Phasor {
 
 /// Adds an angle to a sum. @return the number of full turns by which the sum is less than that, -1 to 1
 double add(Phasor& sum, const Phasor& angle) {
-  const Phasor p{sum.cosine * angle.cosine - sum.sine * angle.sine, sum.cosine * angle.sine + sum.sine * angle.cosine};
+  constexpr double kLarge = 1e100;
+  Phasor p{sum.cosine * angle.cosine - sum.sine * angle.sine, sum.cosine * angle.sine + sum.sine * angle.cosine};
   const bool both_behind = sum.cosine < 0 && angle.cosine < 0;
   double turns = 0;
   if (sum.sine >= 0 && angle.sine >= 0 && (p.sine < 0 || (p.sine == 0 && both_behind))) turns = 1;
   if (sum.sine < 0 && angle.sine < 0 && p.sine >= 0) turns = -1;
   const double size = std::fabs(p.cosine) + std::fabs(p.sine);
-  sum = {p.cosine / size, p.sine / size};
+  if (size > kLarge || size < 1 / kLarge) p = {p.cosine / size, p.sine / size};
+  sum = p;
   return turns;
 }
 
-/// Half the solid angle of one strip of an edge.
-Phasor half_strip_angle(const OpenEdge& edge, Vec3 direction, Vec3 point) {
-  const Vec3 a = normalized(edge.to - point), b = normalized(edge.from - point);
-  return {1 + dot(a, b) + dot(a, direction) + dot(b, direction), dot(direction, cross(a, b))};
+/// The way from a point to a corner of the boundary.
+struct Way {
+  Vec3 vector;
+  double length = 0, along = 0;  // along: its component in the direction of the strips
+};
+
+Way way_to(Vec3 corner, Vec3 direction, Vec3 point) {
+  const Vec3 vector = corner - point;
+  return {vector, length(vector), dot(vector, direction)};
+}
+
+/// Half the solid angle of one strip of an edge, from the ways to its ends.
+Phasor half_strip_angle(const Way& to, const Way& from, Vec3 direction) {
+  const double cosine =
+      to.length * from.length + dot(to.vector, from.vector) + from.length * to.along + to.length * from.along;
+  return {cosine, dot(direction, cross(to.vector, from.vector))};
+}
+
+/// The edges in an order in which many begin where the one before ends.
+std::vector<OpenEdge> in_chains(const std::vector<OpenEdge>& edges) {
+  const auto before = [](Vec3 p, Vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); };
+  std::map<Vec3, std::vector<std::size_t>, decltype(before)> from(before);  // edges that begin there, not taken yet
+  for (std::size_t i = edges.size(); i-- > 0;) from[edges[i].from].push_back(i);
+  std::vector<OpenEdge> ordered;
+  std::vector<bool> taken(edges.size(), false);
+  for (std::size_t first = 0; first < edges.size(); ++first) {
+    if (taken[first]) continue;
+    for (auto at = from.find(edges[first].from); at != from.end() && !at->second.empty();) {
+      const std::size_t next = at->second.back();
+      at->second.pop_back();
+      taken[next] = true;
+      ordered.push_back(edges[next]);
+      at = from.find(edges[next].to);
+    }
+  }
+  return ordered;
 }
 
 }  // namespace
@@ -123,19 +158,25 @@ std::vector<OpenEdge> open_boundary(const TriangleMesh& mesh) {
     if (count > 0) open.push_back({points[ends.first], points[ends.second], double(count)});
     if (count < 0) open.push_back({points[ends.second], points[ends.first], double(-count)});
   }
-  return open;
+  return in_chains(open);
 }
 
 double strip_angle(const OpenEdge& edge, Vec3 direction, Vec3 point) {
-  const Phasor half = half_strip_angle(edge, direction, point);
+  const Phasor half =
+      half_strip_angle(way_to(edge.to, direction, point), way_to(edge.from, direction, point), direction);
   return 2 * edge.count * std::atan2(half.sine, half.cosine);
 }
 
 double strip_angles(const std::vector<OpenEdge>& edges, Vec3 direction, Vec3 point) {
   Phasor sum;
   double turns = 0;
+  Vec3 corner;
+  Way way = way_to(corner, direction, point);
   for (const OpenEdge& edge : edges) {
-    const Phasor half = half_strip_angle(edge, direction, point);
+    const Way from = edge.from == corner ? way : way_to(edge.from, direction, point);
+    corner = edge.to;
+    way = way_to(corner, direction, point);
+    const Phasor half = half_strip_angle(way, from, direction);
     if (half.sine == 0 && half.cosine == 0) continue;
     for (int k = 0; k < static_cast<int>(edge.count); ++k) turns += add(sum, half);
   }

@@ -145,20 +145,20 @@ bool PieceSearch::ghost_is_clear(const SurfacePiece& piece, const Range& near, c
   }
   Vec3 own = normalized(cross(piece.corner[1] - piece.corner[0], piece.corner[2] - piece.corner[0]));
   if (dot(own, away) < 0) own = -own;
-  const Span<const std::uint32_t> faces(faces_.data() + near.first, near.count);
-  const Vec3 common = common_direction(solid_, faces, piece.center, std::min(near.reach, piece.radius));
-  // A large piece along an edge of its surface touches faces that its middle is far from.
-  const Vec3 around =
-      piece.radius > near.reach ? common_direction(solid_, faces, piece.center, piece.radius + near.reach) : Vec3{};
-  const Vec3 back = dot(own, away) < kAcross ? -own : Vec3{};
   const double most = near.reach - piece.deviation - rounding_;
   const double least = (inside ? nearest.distance : 0) + 4 * goal_.slack;
-  for (const Vec3& direction : {own, back, away, away == normal ? Vec3{} : normal, common, around}) {
-    if (direction == Vec3{}) continue;
-    if (clear_when_shifted(piece, most * direction, near)) return true;
-    if (least < 0.7 * most && clear_when_shifted(piece, least * direction, near)) return true;
-  }
-  return false;
+  const auto is_clear_along = [&](Vec3 direction) {
+    if (direction == Vec3{}) return false;
+    return clear_when_shifted(piece, most * direction, near) ||
+           (least < 0.7 * most && clear_when_shifted(piece, least * direction, near));
+  };
+  if (is_clear_along(own) || (dot(own, away) < kAcross && is_clear_along(-own)) || is_clear_along(away)) return true;
+  if (!(away == normal) && is_clear_along(normal)) return true;
+  const Span<const std::uint32_t> faces(faces_.data() + near.first, near.count);
+  if (is_clear_along(common_direction(solid_, faces, piece.center, std::min(near.reach, piece.radius)))) return true;
+  // A large piece along an edge of its surface touches faces that its middle is far from.
+  return piece.radius > near.reach &&
+         is_clear_along(common_direction(solid_, faces, piece.center, piece.radius + near.reach));
 }
 
 bool PieceSearch::near_surface(const SurfacePiece& piece, const Nearest& nearest) const {
