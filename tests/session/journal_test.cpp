@@ -160,6 +160,47 @@ TEST(Journal, WritesARestoredSessionDownInANewOne) {
   EXPECT_EQ(a.done_count, b.done_count);
 }
 
+TEST(Journal, KeepsTheSessionOfBeforeUntilItIsReplacedAsAWhole) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "journal";
+  Table table(wall_and_block());
+  begin_journal(table, file);
+  table.move(kFirst, {-3, 0, 0}, 3);
+  table.move(kFirst, {0, 3, 0}, 3);
+  ASSERT_TRUE(table.session().undo().ok());
+  const JournalContents before = contents_of(file);
+  const std::size_t size = read_file(file, 1 << 24)->size();
+  table.session().rewrite_journal();
+  const std::string bytes = *read_file(file, 1 << 24);
+  ASSERT_GT(bytes.size(), size);
+  for (std::size_t end = size; end <= bytes.size(); ++end) {
+    const std::optional<JournalContents> cut = parse_journal(std::string_view(bytes).substr(0, end));
+    ASSERT_TRUE(cut.has_value());
+    EXPECT_EQ(cut->entries, before.entries) << end;
+    EXPECT_EQ(cut->done_count, 1u) << end;
+    EXPECT_EQ(cut->whole_bytes, end < bytes.size() ? size : end);
+    EXPECT_EQ(cut->invalid, "") << end;
+  }
+}
+
+TEST(Journal, RefusesToBeReplacedByNoValidSession) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "journal";
+  Table table(wall_and_block());
+  begin_journal(table, file);
+  table.move(kFirst, {-3, 0, 0}, 3);
+  table.session().close_journal();
+  const JournalContents before = contents_of(file);
+  SessionEntry elsewhere = before.entries.front();
+  elsewhere.frames.front().pose.position.x += 1;  // where the component is not
+  Result<std::unique_ptr<Journal>> journal = Journal::go_on(file, before);
+  ASSERT_TRUE(journal.ok());
+  (*journal)->replace({&elsewhere, 1}, 1);
+  const JournalContents after = contents_of(file);
+  EXPECT_EQ(after.entries, before.entries);
+  EXPECT_EQ(after.invalid, "a motion does not start where its components are");
+}
+
 TEST(Journal, IsForOneProcessAtATime) {
   const ScratchFolder folder;
   const Result<std::unique_ptr<Journal>> first = Journal::create(folder / "journal", {});

@@ -128,6 +128,10 @@ void Journal::reset() {
   impl_->write(plain_record(JournalRecord::Reset));
 }
 
+void Journal::replace(Span<const SessionEntry> entries, std::size_t done_count) {
+  impl_->write(replace_record(entries, done_count));
+}
+
 void Journal::close() {
   impl_->write(plain_record(JournalRecord::Close));
 }

@@ -65,6 +65,9 @@ class Journal {
   void undo();   ///< Records an undo.
   void redo();   ///< Records a redo.
   void reset();  ///< Records that everything was reset.
+  /// Records that the session consists of these entries now, the first `done_count` of them in effect. A process that
+  /// is killed meanwhile leaves the session of before.
+  void replace(Span<const SessionEntry> entries, std::size_t done_count);
   void close();  ///< Records that the session ended normally.
 
   /// True if a record could not be written (disk full); the journal is incomplete from then on.

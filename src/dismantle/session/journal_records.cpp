@@ -12,8 +12,9 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::uint32_t kVersion = 2;
-/// Its records of entries list pairs of components at their ends, which are not used.
+constexpr std::uint32_t kVersion = 3;
+/// Its records of entries list pairs of components at their ends, which are not used. Version 2 is version 3 without
+/// Replace.
 constexpr std::uint32_t kVersionWithPairs = 1;
 constexpr std::string_view kMagic = "dismantle-journal";
 constexpr std::size_t kHeadBytes = 8;  // length and hash
@@ -38,6 +39,10 @@ class Payload {
   }
   Payload& text(std::string_view value) {
     count(value.size());
+    bytes_ += value;
+    return *this;
+  }
+  Payload& bytes(std::string_view value) {
     bytes_ += value;
     return *this;
   }
@@ -95,6 +100,8 @@ class Source {
     for (double& one : v) one = number<double>();
     return {v[0], {{v[1], v[2], v[3]}, {v[4], v[5], v[6], v[7]}}};
   }
+  /// All that is left.
+  std::string_view rest() { return std::exchange(bytes_, {}); }
   void skip_pairs() {
     for (std::size_t left = count(8); left > 0; --left) number<std::uint64_t>();
   }
@@ -129,6 +136,22 @@ std::string problem_of(const std::vector<Frame>& frames, std::size_t from) {
     if (i > 0 && frames[i].time < frames[i - 1].time) return "the times of a motion descend";
   }
   return {};
+}
+
+/// A record, taken off the begin of some bytes.
+struct TakenRecord {
+  std::string_view payload;   // empty where the record is not whole
+  bool is_unchanged = false;  // its hash is right
+};
+
+TakenRecord take_record(std::string_view& bytes) {
+  if (bytes.size() <= kHeadBytes) return {};
+  const auto length = number_at<std::uint32_t>(bytes.data(), std::endian::little);
+  const auto hash = number_at<std::uint32_t>(bytes.data() + 4, std::endian::little);
+  if (length == 0 || length > bytes.size() - kHeadBytes) return {};
+  const std::string_view payload = bytes.substr(kHeadBytes, length);
+  bytes.remove_prefix(kHeadBytes + length);
+  return {payload, hash_of(payload) == hash};
 }
 
 /// Replays the records.
@@ -177,12 +200,28 @@ class JournalReplay {
         open_.reset();
         poses_.clear();
         return true;
+      case JournalRecord::Replace:
+        return replace(in.rest());
       case JournalRecord::Close:
         return contents_.is_closed = true;
       case JournalRecord::Header:
         break;
     }
     return false;
+  }
+
+  bool replace(std::string_view records) {
+    JournalReplay whole;
+    whole.contents_.header = contents_.header;
+    whole.has_header_ = true;
+    while (!records.empty()) {
+      const TakenRecord record = take_record(records);
+      const bool is_nested = !record.payload.empty() && record.payload[0] == static_cast<char>(JournalRecord::Replace);
+      if (!record.is_unchanged || is_nested) return false;
+      if (!whole.replay(record.payload)) return refuse(std::move(whole.contents_.invalid));
+    }
+    *this = std::move(whole);
+    return true;
   }
 
   bool undo() {
@@ -222,7 +261,7 @@ class JournalReplay {
   bool take_header(Source& in) {
     if (has_header_ || in.text() != kMagic) return false;
     const auto version = in.number<std::uint32_t>();
-    if (version != kVersion && version != kVersionWithPairs) return false;
+    if (version < kVersionWithPairs || version > kVersion) return false;
     has_pairs_ = version == kVersionWithPairs;
     JournalHeader& h = contents_.header;
     h.assembly_name = in.text();
@@ -319,28 +358,33 @@ std::string end_record(const SessionEntry& entry) {
   return Payload(JournalRecord::End).number(static_cast<std::uint8_t>(removed)).record();
 }
 
+std::string replace_record(Span<const SessionEntry> entries, std::size_t done_count) {
+  Payload out(JournalRecord::Replace);
+  for (const SessionEntry& entry : entries) {
+    out.bytes(begin_record(entry));
+    if (has_moved(entry)) out.bytes(frames_record({entry.frames.data() + 1, entry.frames.size() - 1}));
+    out.bytes(end_record(entry));
+  }
+  for (std::size_t i = done_count; i < entries.size(); ++i) out.bytes(plain_record(JournalRecord::Undo));
+  return out.record();
+}
+
 std::string plain_record(JournalRecord kind) {
   return Payload(kind).record();
 }
 
 std::optional<JournalContents> parse_journal(std::string_view bytes) {
   JournalReplay replay;
-  std::size_t at = 0;
-  while (bytes.size() - at > kHeadBytes) {
-    const auto length = number_at<std::uint32_t>(&bytes[at], std::endian::little);
-    const auto hash = number_at<std::uint32_t>(&bytes[at + 4], std::endian::little);
-    if (length == 0 || length > bytes.size() - at - kHeadBytes) break;
-    const std::string_view payload = bytes.substr(at + kHeadBytes, length);
-    if (hash_of(payload) != hash) {
-      replay.set_invalid("its bytes were changed");
-      break;
-    }
-    if (!replay.take(payload)) break;
-    at += kHeadBytes + length;
+  std::string_view left = bytes;
+  std::size_t whole = 0;
+  for (TakenRecord record = take_record(left); !record.payload.empty(); record = take_record(left)) {
+    if (!record.is_unchanged) replay.set_invalid("its bytes were changed");
+    if (!record.is_unchanged || !replay.take(record.payload)) break;
+    whole = bytes.size() - left.size();
   }
   if (!replay.has_header()) return {};
   JournalContents contents = replay.finish();
-  contents.whole_bytes = at;
+  contents.whole_bytes = whole;
   return contents;
 }
 

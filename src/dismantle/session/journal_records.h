@@ -19,6 +19,7 @@ enum class JournalRecord : char {
   Undo = 'U',
   Redo = 'R',
   Reset = 'Z',
+  Replace = 'W',  // its payload is records that replace all before them
   Close = 'C',
 };
 
@@ -30,6 +31,8 @@ std::string begin_record(const SessionEntry& entry);
 std::string frames_record(Span<const Frame> frames);
 /// The record of the end of an entry.
 std::string end_record(const SessionEntry& entry);
+/// The record of a whole session, which is valid as a whole or not at all.
+std::string replace_record(Span<const SessionEntry> entries, std::size_t done_count);
 /// A record without further payload.
 std::string plain_record(JournalRecord kind);
 

@@ -278,14 +278,7 @@ RestorableState Session::restore(JournalContents contents) {
 }
 
 void Session::rewrite_journal() {
-  if (!journal_) return;
-  journal_->reset();
-  for (const SessionEntry& entry : entries_) {
-    journal_->begin(entry);
-    if (has_moved(entry)) journal_->add_frames({entry.frames.data() + 1, entry.frames.size() - 1});
-    journal_->end(entry);
-  }
-  for (std::size_t i = done_count_; i < entries_.size(); ++i) journal_->undo();
+  if (journal_) journal_->replace(entries_, done_count_);
 }
 
 }  // namespace dismantle
