@@ -19,7 +19,8 @@ struct HalfEdge {
   bool forward;        ///< Runs from low to high.
 };
 
-/// The half edges of all faces, sorted by low, high and face: those of one edge are together. Shape [3 face_count].
+/// The half edges of all faces, sorted by low, high, face and side: those of one edge are together. Shape [3
+/// face_count].
 std::vector<HalfEdge> sorted_half_edges(Span<const Face> faces);
 
 /// Calls visit(first, last) for each edge: the range of its half edges.
