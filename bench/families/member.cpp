@@ -31,6 +31,35 @@ std::string text(const char* format, auto... values) {
   return line;
 }
 
+/// The depth of a point inside a mesh; 0 outside.
+double depth_of(const OracleMesh& mesh, Vec3 point) {
+  const NearestFace near = mesh.nearest(point);
+  return mesh.solid() && mesh.inside(point, near) ? near.distance : 0;
+}
+
+/// True if a corner or the middle of a face of either mesh gets deeper in the other on a straight way than the
+/// tolerance, and than it is at the start: where the two may overlap depends on the place, not on the pair alone.
+bool overlaps_elsewhere(const JudgedPair& pair, Vec3 way) {
+  constexpr int kTimes = 24;
+  const auto gets_deeper = [&](const OracleMesh& other, Vec3 along, Vec3 point) {
+    const double allowed = std::max(depth_of(other, point), pair.tolerance) + kStuckShare * pair.tolerance;
+    for (int k = 1; k <= kTimes; ++k)
+      if (depth_of(other, point + (1.0 * k / kTimes) * along) > allowed) return true;
+    return false;
+  };
+  const auto any_gets_deeper = [&](const OracleMesh& points, const OracleMesh& other, Vec3 along) {
+    const TriangleMesh& mesh = points.mesh();
+    for (const Vec3& p : mesh.vertices)
+      if (gets_deeper(other, along, p)) return true;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      const Triangle t = mesh.triangle(f);
+      if (gets_deeper(other, along, (t[0] + t[1] + t[2]) / 3.0)) return true;
+    }
+    return false;
+  };
+  return any_gets_deeper(pair.moving, pair.fixed, way) || any_gets_deeper(pair.fixed, pair.moving, -way);
+}
+
 class Member {
  public:
   Member(const MemberKey& key, const MemberOptions& options, const std::function<void(const std::string&)>& report)
@@ -151,6 +180,8 @@ class Member {
     options.samples = 300;
     const Verdict free = judge(pair, {{}, {way, {}}}, options);
     if (free.beyond || free.passed || free.doubted > 0) return;
+    const ComponentPair* known = states_.find(ComponentId(0), ComponentId(1));
+    if (known && known->depth > pair.tolerance && overlaps_elsewhere(pair, way)) return;
     ++result_.straight;
     CertificateEngine engine(assembly_, states_);
     const Drive pulled = pull(scene_, engine, way, dice);
