@@ -81,6 +81,7 @@ Json model_json(const Model& model) {
   json["event"] = "model";
   json["number"] = model.number;
   if (!model.name.empty()) json["name"] = model.name;
+  json["product"] = model.product;
   return json;
 }
 

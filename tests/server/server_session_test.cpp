@@ -18,6 +18,7 @@ TEST_F(ServerSession, TellsWhatIsOpen) {
   Client client(address());
   const Json model = client.event("model");
   EXPECT_EQ(model["name"], "block.obj");
+  EXPECT_EQ(model["product"], "block");
   EXPECT_EQ(model["components"][0]["name"], "block");
   EXPECT_EQ(model["components"][1]["triangles"], 12);
   const Json state = client.state();

@@ -68,7 +68,7 @@ export class InstructionsPart {
   /// Forgets the last message. Call when the dialog opens.
   reset(): void {
     setText(this.status, "");
-    this.fields[0].placeholder = this.session.store.model?.name ?? "";
+    this.fields[0].placeholder = this.session.store.model?.product ?? "";
     this.fields[4].placeholder = text("instructions.today");
   }
 

@@ -22,6 +22,8 @@ export interface ModelComponent {
 export interface ModelEvent {
   number: number;
   name: string;
+  /// For titles; absent in an exported page.
+  product?: string;
   sha256: string;
   units: string;
   deflection: number;

@@ -20,6 +20,7 @@ test("the preview shows the page with its styles, and its title block", async ()
   await viewer.takeOut(kSlide);
   await viewer.takeOut("foot");
   await viewer.page.click("#export");
+  assert.equal(await viewer.page.getAttribute("#instructions-product", "placeholder"), "microscope");
   await viewer.page.fill("#instructions-product", "School microscope");
   await viewer.page.fill("#instructions-number", "DOC-17");
   await viewer.page.fill("#instructions-revision", "B");
