@@ -143,15 +143,15 @@ bool apart(const OracleMesh& first, const OracleMesh& second, const RigidTransfo
     open.push_back(t);
   }
   for (const Vec3& p : first.mesh().vertices)
-    if (second.nearest(second_from_first * p).distance <= gap) return false;
+    if (second.nearest(second_from_first * p, gap).distance < gap) return false;
   for (std::size_t pieces = 0; !open.empty(); ++pieces) {
     if (pieces == kMaxPieces + first.mesh().faces.size()) return false;
     const Triangle t = open.back();
     open.pop_back();
     const Vec3 middle = middle_of(t);
-    const double distance = second.nearest(middle).distance;
-    if (distance > radius_of(t, middle) + gap) continue;
-    if (distance <= gap) return false;
+    const double reach = radius_of(t, middle) + gap, distance = second.nearest(middle, reach).distance;
+    if (distance >= reach) continue;
+    if (distance < gap) return false;
     Triangle halves[2];
     halve(t, halves[0], halves[1]);
     open.push_back(halves[0]);
