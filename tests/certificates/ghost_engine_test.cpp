@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The guarantee of ghost surfaces (docs/design/0012-ghost-surfaces.md), by a depth that shares no code with the engine.
 #include "dismantle/certificates/certificate_engine.h"
+#include "dismantle/math/angle.h"
 #include "tests/certificates/grabbed_component.h"
 #include "tests/support/depth_oracle.h"
 #include "tests/support/faulty_meshes.h"
@@ -211,6 +212,64 @@ TEST(GhostEngine, LetsASheetGoThatATipPokesThroughWithinTheTolerance) {
     down.engine.step({{0, 0, -1}, {}}, response);
     EXPECT_GE(down.engine.poses()[0].position.z, -2 * kTolerance);
   }
+}
+
+/// A flat square sheet of n x n cells of two triangles.
+TriangleMesh cells(double half, std::uint32_t n) {
+  TriangleMesh sheet;
+  for (std::uint32_t i = 0; i <= n; ++i)
+    for (std::uint32_t j = 0; j <= n; ++j)
+      sheet.vertices.push_back({half * (2.0 * i / n - 1), half * (2.0 * j / n - 1), 0});
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t v = i * (n + 1) + j, w = v + n + 1;
+      sheet.faces.push_back({{v, w, w + 1}});
+      sheet.faces.push_back({{v, w + 1, v + 1}});
+    }
+  return sheet;
+}
+
+TEST(GhostEngine, LetsASheetSlideOnATipThatItTouches) {
+  const TriangleMesh tip{{{0, 0, 0}, {2, 2, -2}, {-2, 2, -2}, {-2, -2, -2}, {2, -2, -2}},
+                         {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 4}}, {{0, 4, 1}}, {{1, 3, 2}}, {{1, 4, 3}}}};
+  const Assembly assembly =
+      scenes::assembly({component("sheet", turned(cells(3, 8), 0.3, {0.7, 0.4, 0})), component("tip", tip)});
+  const PairStates states = states_of(assembly);
+  for (const ResponseKind response : kResponses) {
+    Grabbed aside(assembly, states, 0), down(assembly, states, 0);
+    for (int k = 1; k <= 20; ++k) EXPECT_TRUE(aside.engine.step({{-0.1 * k, 0.07 * k, 0}, {}}, response).reached);
+    for (Grabbed* pressed : {&aside, &down}) {
+      Pose target = pressed->engine.poses()[0];
+      target.position.z = -1;
+      pressed->engine.step(target, response);
+      // It may tilt: the height of its plane over the tip.
+      const RigidTransform now = transform_from_pose(pressed->engine.poses()[0]);
+      const Vec3 normal = now.rotation * Vec3{0, 0, 1};
+      EXPECT_GE(dot(normal, now.translation) / normal.z, -kTolerance);
+    }
+  }
+}
+
+TEST(GhostEngine, LetsASheetSlideOnAnotherOneThatItStandsOn) {
+  const TriangleMesh upright = scenes::moved(cells(2, 1), {{0.3, 0.2, 2}, quat_about({1, 0, 0}, kTurn / 4)});
+  for (const TriangleMesh& upper : {upright, upside_down(upright)})
+    for (const TriangleMesh& lower : {cells(1.5, 8), upside_down(cells(1.5, 8))}) {
+      const Assembly assembly = scenes::assembly({component("upper", upper), component("lower", lower)});
+      const PairStates states = states_of(assembly);
+      for (const ResponseKind response : kResponses) {
+        Grabbed upper_moves(assembly, states, 0), lower_moves(assembly, states, 1), down(assembly, states, 0);
+        for (int k = 1; k <= 20; ++k) {
+          const Vec3 way{-0.05 * k, 0.03 * k, 0};
+          EXPECT_TRUE(upper_moves.engine.step({way, {}}, response).reached);
+          EXPECT_TRUE(lower_moves.engine.step({way, {}}, response).reached);
+        }
+        upper_moves.engine.step({{-1, 0.6, -1}, {}}, response);
+        down.engine.step({{0, 0, -1}, {}}, response);
+        for (const Grabbed* pressed : {&upper_moves, &down})
+          for (const Vec3& p : at(assembly.components[0], pressed->engine.poses()[0]).vertices)
+            EXPECT_GE(p.z, -kTolerance);
+      }
+    }
 }
 
 TEST(GhostEngine, PassesNoPlateThroughAFoilThatItRestsOn) {

@@ -92,7 +92,7 @@ class GhostSide {
   std::optional<Found> find(double max_length, double depth_limit, bool also_corners) {
     depth_limit_ = depth_limit;
     max_length_ = max_length;
-    const bool solid = own_.tree->has_outside || own_.tree->inside_out;
+    const bool solid = !is_sheet();
     std::vector<std::vector<Vec3>> starts;
     const auto good = [&](std::vector<Vec3> vertices, bool into_solid) -> std::optional<Found> {
       if (apart(vertices) && shallow(vertices)) return Found{std::move(vertices), into_solid};
@@ -188,7 +188,8 @@ class GhostSide {
         auto moved =
             separating_ghost({own_.tree, other_.tree, start, near, max_length_, share * request_.tolerance, is_a_});
         if (!moved || !apart(*moved) || !shallow(*moved)) continue;
-        auto shifted = &start == &starts.back() ? find_shifted(near, *moved) : std::nullopt;
+        // Sheets slide on what they touch in one place only if all of them is off it.
+        auto shifted = is_sheet() || &start == &starts.back() ? find_shifted(near, *moved) : std::nullopt;
         return Found{shifted ? std::move(*shifted) : std::move(*moved), false};
       }
     auto shifted = find_shifted(near, {});
@@ -284,10 +285,9 @@ class GhostSide {
   /// component than the pair may be. Every such point is then still inside the displaced surface, however long the
   /// displacements are.
   bool shallow(const std::vector<Vec3>& vertices) const {
+    if (max_length_ <= depth_limit_ * (is_sheet() ? kMaxFactorForCorners : 1) * (1 + kRounding)) return true;
+    if (is_sheet()) return false;
     const SolidTree& own = *own_.tree;
-    const bool is_sheet = !own.has_outside && !own.inside_out;
-    if (max_length_ <= depth_limit_ * (is_sheet ? kMaxFactorForCorners : 1) * (1 + kRounding)) return true;
-    if (is_sheet) return false;
     std::size_t pieces = 0;
     for (const Face& f : own.faces) {
       double longest = 0;
@@ -295,9 +295,7 @@ class GhostSide {
       if (longest <= depth_limit_) continue;
       const Triangle from{{own.vertices[f.v[0]], own.vertices[f.v[1]], own.vertices[f.v[2]]}};
       const Triangle to{{vertices[f.v[0]], vertices[f.v[1]], vertices[f.v[2]]}};
-      if (!stays_shallow(own_.shape(), from, to, depth_limit_, pieces, kMaxPieces)) {
-        return false;
-      }
+      if (!stays_shallow(own_.shape(), from, to, depth_limit_, pieces, kMaxPieces)) return false;
     }
     return true;
   }
@@ -309,6 +307,8 @@ class GhostSide {
     for (double& n : needed) n = std::max(std::min(margin * n, most), request_.everywhere);
     return needed;
   }
+
+  bool is_sheet() const { return !own_.tree->has_outside && !own_.tree->inside_out; }
 
   bool overlaps() const { return request_.depth > overlap_from(request_); }
 
