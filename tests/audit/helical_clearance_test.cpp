@@ -254,27 +254,34 @@ TEST(HelicalClearance, NamesNoFaceThatIsDeeperThanTheLimit) {
   EXPECT_GT(deep_faces, 30);
 }
 
-/// A bar that turns about an axis, off it by a step in the middle of the run, comes that much nearer to a wall.
+/// A bar that turns about an axis, and makes a step in the middle of the run, comes that much nearer to what is there.
 TEST(HelicalClearance, NamesNoFaceThatAMotionBesideTheHelixBringsInside) {
   constexpr double kStep = 0.02;
   for (const double gap : {0.75 * kStep, 4 * kStep}) {
-    HelicalScene scene(scenes::box({5 + gap, -2, -1}, {6, 2, 1}), scenes::box({4, -0.01, -0.5}, {5, 0.01, 0.5}), Pose{},
-                       0, 13, 40);
-    std::vector<Frame> frames;
-    for (std::size_t k = 0; k < scene.segments.size(); ++k) {
-      const Pose by{{k < 20 ? 0 : kStep, 0, 0}, {}};
-      frames.push_back({scene.segments[k].time, by * scene.segments[k].start});
+    const std::pair<TriangleMesh, Vec3> scenes[] = {{scenes::box({5 + gap, -2, -1}, {6, 2, 1}), {kStep, 0, 0}},
+                                                    {scenes::box({4, -2, 0.5 + gap}, {5, 2, 2}), {0, 0, kStep}},
+                                                    {scenes::box({4, -2, -2}, {5, 2, -0.5 - gap}), {0, 0, -kStep}}};
+    for (const auto& [fixed, step] : scenes) {
+      HelicalScene scene(fixed, scenes::box({4, -0.01, -0.5}, {5, 0.01, 0.5}), Pose{}, 0, 13, 40);
+      std::vector<Frame> frames;
+      for (std::size_t k = 0; k < scene.segments.size(); ++k) {
+        const Pose by{k < 20 ? Vec3{} : step, {}};
+        frames.push_back({scene.segments[k].time, by * scene.segments[k].start});
+      }
+      scene.pair.motion.motions.clear();
+      for (const MotionSegment& segment : motion_segments(frames))
+        scene.pair.motion.motions.push_back(relative_motion(scene.a.surface().world_from_body(Pose{}),
+                                                            scene.b.surface().world_from_body(segment.start),
+                                                            segment.screw));
+      const auto last = static_cast<std::uint32_t>(frames.size()) - 1;
+      const auto clear = clear_in_helical_motion(scene.pair, {0, last}, 0);
+      ASSERT_TRUE(clear.has_value());
+      const auto all = [](const std::vector<bool>& faces) {
+        return std::count(faces.begin(), faces.end(), false) == 0;
+      };
+      EXPECT_EQ(all(clear->of_a), gap > kStep) << step.z;
+      EXPECT_EQ(all(clear->of_b), gap > kStep) << step.z;
     }
-    scene.pair.motion.motions.clear();
-    for (const MotionSegment& segment : motion_segments(frames))
-      scene.pair.motion.motions.push_back(relative_motion(
-          scene.a.surface().world_from_body(Pose{}), scene.b.surface().world_from_body(segment.start), segment.screw));
-    const auto last = static_cast<std::uint32_t>(frames.size()) - 1;
-    const auto clear = clear_in_helical_motion(scene.pair, {0, last}, 0);
-    ASSERT_TRUE(clear.has_value());
-    const auto all = [](const std::vector<bool>& faces) { return std::count(faces.begin(), faces.end(), false) == 0; };
-    EXPECT_EQ(all(clear->of_a), gap > kStep);
-    EXPECT_EQ(all(clear->of_b), gap > kStep);
   }
 }
 
