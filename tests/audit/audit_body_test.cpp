@@ -55,6 +55,32 @@ TEST(AuditBody, FindsTheSameClosestTriangleAsBruteForce) {
   }
 }
 
+TEST(AuditBody, FindsTheClosestTriangleAmongSlivers) {
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> uniform;
+  for (int i = 0; i < 20; ++i) {
+    TriangleMesh mesh;
+    for (std::uint32_t f = 0; f < 40; ++f) {
+      const Vec3 from = random_point(random, 10), to = random_point(random, 10);
+      const Vec3 beside =
+          from + uniform(random) * (to - from) + random_point(random, std::pow(10, -15 * uniform(random)));
+      mesh.vertices.insert(mesh.vertices.end(), {from, to, beside});
+      const std::uint32_t v = 3 * f;
+      mesh.faces.push_back(f % 2 == 0 ? Face{{v, v + 1, v + 2}} : Face{{v + 2, v, v + 1}});
+    }
+    const AuditBody body(scenes::component("slivers", mesh));
+    for (int k = 0; k < 200; ++k) {
+      const Triangle t = body.triangle(static_cast<std::uint32_t>(k) % body.face_count());
+      const Vec3 point =
+          t[0] + uniform(random) * (t[1] - t[0]) + random_point(random, std::pow(10, -12 * uniform(random)));
+      double minimum = 1e300;
+      for (std::uint32_t f = 0; f < body.face_count(); ++f)
+        minimum = std::min(minimum, distance_to_triangle(body.triangle(f), point));
+      EXPECT_NEAR(body.closest(point).distance, minimum, 1e-13);
+    }
+  }
+}
+
 TEST(AuditBody, KnowsWhichPointsAreInsideATube) {
   std::mt19937_64 random(23);
   const AuditBody body(scenes::component("tube", scenes::moved(scenes::tube(5, 3, -4, 4, 200, 3), {{100, 0, 7}, {}})));

@@ -19,11 +19,13 @@ double squared_distance_to_segment(Vec3 a, Vec3 b, Vec3 point) {
   return dot(offset, offset);
 }
 
-/// True if the plane of a triangle is at least `distance` from a point, and so is the triangle.
+/// True if the plane of a triangle is at least `distance` from a point, and so is the triangle. False for slivers,
+/// whose normals are not exact enough to tell.
 bool plane_is_beyond(const Triangle& t, Vec3 point, double distance) {
-  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
-  const double height = dot(normal, point - t[0]);
-  return height * height >= distance * distance * dot(normal, normal) && dot(normal, normal) > 0;
+  constexpr double kSliverSineSquared = 1e-2;
+  const Vec3 e = t[1] - t[0], f = t[2] - t[0], normal = cross(e, f);
+  const double squared = dot(normal, normal), height = dot(normal, point - t[0]);
+  return height * height >= distance * distance * squared && squared > kSliverSineSquared * dot(e, e) * dot(f, f);
 }
 
 double squared_distance_to_box(const BoxNode& node, Vec3 point) {
