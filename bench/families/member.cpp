@@ -37,8 +37,8 @@ double depth_of(const OracleMesh& mesh, Vec3 point) {
   return mesh.solid() && mesh.inside(point, near) ? near.distance : 0;
 }
 
-/// True if a corner or the middle of a face of either mesh gets deeper in the other on a straight way than the
-/// tolerance, and than it is at the start: where the two may overlap depends on the place, not on the pair alone.
+/// True if a corner or the middle of a face of either mesh gets deeper in the other, on a straight way, than both the
+/// tolerance and its depth at the start: how deep two components may overlap depends on the place.
 bool overlaps_elsewhere(const JudgedPair& pair, Vec3 way) {
   constexpr int kTimes = 24;
   const auto gets_deeper = [&](const OracleMesh& other, Vec3 along, Vec3 point) {

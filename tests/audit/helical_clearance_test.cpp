@@ -53,12 +53,18 @@ struct HelicalScene {
       const Pose along{{0, 0, pitch * angle}, quat_about({0, 0, 1}, angle)};
       path.push_back({0.1 * k, axis * along * inverse(axis)});
     }
-    segments = motion_segments(path);
     pair.a = &a;
     pair.b = &b;
     pair.motion.a = &a.surface();
     pair.motion.b = &b.surface();
     pair.motion.rounding = 1e-12;
+    follow(path);
+  }
+
+  /// Makes b move through these frames instead.
+  void follow(const std::vector<Frame>& frames) {
+    segments = motion_segments(frames);
+    pair.motion.motions.clear();
     const RigidTransform world_from_a = a.surface().world_from_body(Pose{});
     for (const MotionSegment& segment : segments)
       pair.motion.motions.push_back(
@@ -102,11 +108,7 @@ TEST(HelicalMotion, DeviationBoundsEveryPointAtEveryInstant) {
       const Pose wobble{1e-3 * off, quat_about(normalized(off), 1e-3 * normal(random))};
       frames.push_back({segment.time, wobble * segment.start});
     }
-    const auto segments = motion_segments(frames);
-    scene.pair.motion.motions.clear();
-    for (const MotionSegment& segment : segments)
-      scene.pair.motion.motions.push_back(relative_motion(
-          scene.a.surface().world_from_body(Pose{}), scene.b.surface().world_from_body(segment.start), segment.screw));
+    scene.follow(frames);
     const auto motion = helical_motion(scene.pair.motion, {0, 20}, 1e-6);
     ASSERT_TRUE(motion.has_value());
     EXPECT_LT(motion->deviation, 0.2);
@@ -254,7 +256,7 @@ TEST(HelicalClearance, NamesNoFaceThatIsDeeperThanTheLimit) {
   EXPECT_GT(deep_faces, 30);
 }
 
-/// A bar that turns about an axis, and makes a step in the middle of the run, comes that much nearer to what is there.
+/// A bar that turns about an axis is displaced halfway through the run, towards a wall, a ceiling or a floor.
 TEST(HelicalClearance, NamesNoFaceThatAMotionBesideTheHelixBringsInside) {
   constexpr double kStep = 0.02;
   for (const double gap : {0.75 * kStep, 4 * kStep}) {
@@ -268,11 +270,7 @@ TEST(HelicalClearance, NamesNoFaceThatAMotionBesideTheHelixBringsInside) {
         const Pose by{k < 20 ? Vec3{} : step, {}};
         frames.push_back({scene.segments[k].time, by * scene.segments[k].start});
       }
-      scene.pair.motion.motions.clear();
-      for (const MotionSegment& segment : motion_segments(frames))
-        scene.pair.motion.motions.push_back(relative_motion(scene.a.surface().world_from_body(Pose{}),
-                                                            scene.b.surface().world_from_body(segment.start),
-                                                            segment.screw));
+      scene.follow(frames);
       const auto last = static_cast<std::uint32_t>(frames.size()) - 1;
       const auto clear = clear_in_helical_motion(scene.pair, {0, last}, 0);
       ASSERT_TRUE(clear.has_value());

@@ -27,6 +27,12 @@ TriangleMesh needle(double degrees, double height, double tip) {
           {{{0, 2, 1}}, {{0, 3, 2}}, {{0, 4, 3}}, {{0, 1, 4}}, {{1, 2, 3}}, {{1, 3, 4}}}};
 }
 
+/// A square pyramid with its apex, which points up, at the origin.
+TriangleMesh pyramid() {
+  return {{{0, 0, 0}, {2, 2, -2}, {-2, 2, -2}, {-2, -2, -2}, {2, -2, -2}},
+          {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 4}}, {{0, 4, 1}}, {{1, 3, 2}}, {{1, 4, 3}}}};
+}
+
 /// A knife on its edge.
 TriangleMesh wedge(double degrees, double length, double height, double edge) {
   const double b = height * std::tan(degrees * 3.14159265358979 / 360), top = edge + height;
@@ -200,10 +206,9 @@ TEST(GhostEngine, LetsASheetSlideAlongWhatItTouchesSomewhereElse) {
 }
 
 TEST(GhostEngine, LetsASheetGoThatATipPokesThroughWithinTheTolerance) {
-  const TriangleMesh tip{{{0, 0, 0}, {2, 2, -2}, {-2, 2, -2}, {-2, -2, -2}, {2, -2, -2}},
-                         {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 4}}, {{0, 4, 1}}, {{1, 3, 2}}, {{1, 4, 3}}}};
-  const Assembly assembly = scenes::assembly(
-      {component("sheet", turned(scenes::sheet(3, -0.5 * kTolerance), 0.3, {0.7, 0.4, 0})), component("tip", tip)});
+  const Assembly assembly =
+      scenes::assembly({component("sheet", turned(scenes::sheet(3, -0.5 * kTolerance), 0.3, {0.7, 0.4, 0})),
+                        component("tip", pyramid())});
   const PairStates states = states_of(assembly);
   for (const ResponseKind response : kResponses) {
     Grabbed aside(assembly, states, 0), up(assembly, states, 0), down(assembly, states, 0);
@@ -230,10 +235,8 @@ TriangleMesh cells(double half, std::uint32_t n) {
 }
 
 TEST(GhostEngine, LetsASheetSlideOnATipThatItTouches) {
-  const TriangleMesh tip{{{0, 0, 0}, {2, 2, -2}, {-2, 2, -2}, {-2, -2, -2}, {2, -2, -2}},
-                         {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 4}}, {{0, 4, 1}}, {{1, 3, 2}}, {{1, 4, 3}}}};
   const Assembly assembly =
-      scenes::assembly({component("sheet", turned(cells(3, 8), 0.3, {0.7, 0.4, 0})), component("tip", tip)});
+      scenes::assembly({component("sheet", turned(cells(3, 8), 0.3, {0.7, 0.4, 0})), component("tip", pyramid())});
   const PairStates states = states_of(assembly);
   for (const ResponseKind response : kResponses) {
     Grabbed aside(assembly, states, 0), down(assembly, states, 0);

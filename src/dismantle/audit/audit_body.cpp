@@ -67,13 +67,13 @@ double side_of_edge(Vec3 a, Vec3 b, Vec3 point) {
   return (a.x - point.x) * (b.y - point.y) - (b.x - point.x) * (a.y - point.y);
 }
 
-/// @param slowness 1 / the direction, by coordinate
-bool ray_meets_box(const BoxNode& node, Vec3 point, Vec3 slowness, double margin) {
+/// @param inverse of each coordinate of the ray's direction
+bool ray_meets_box(const BoxNode& node, Vec3 point, Vec3 inverse, double margin) {
   double first = 0, last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     const double half = node.half[i] + margin;
-    const double near = (node.center[i] - half - point[i]) * slowness[i];
-    const double far = (node.center[i] + half - point[i]) * slowness[i];
+    const double near = (node.center[i] - half - point[i]) * inverse[i];
+    const double far = (node.center[i] + half - point[i]) * inverse[i];
     first = std::max(first, std::min(near, far));
     last = std::min(last, std::max(near, far));
   }
@@ -252,9 +252,9 @@ AuditBody::Crossing AuditBody::crossing(std::uint32_t face, Vec3 point, const Ma
 
 AuditBody::Winding AuditBody::winding(Vec3 point, const Mat3& frame) const {
   const double margin = kBoxMargin * nodes_[0].reach;
-  const Vec3 direction = frame.row[2], slowness{1 / direction.x, 1 / direction.y, 1 / direction.z};
+  const Vec3 direction = frame.row[2], inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
   Winding result;
-  visit_faces([&](const BoxNode& node) { return ray_meets_box(node, point, slowness, margin); },
+  visit_faces([&](const BoxNode& node) { return ray_meets_box(node, point, inverse, margin); },
               [&](std::uint32_t face) {
                 const Crossing found = crossing(face, point, frame);
                 result.certain = result.certain && found.certain;

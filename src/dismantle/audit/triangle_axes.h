@@ -6,12 +6,14 @@
 
 namespace dismantle::audit {
 
+/// The squared sine of an angle below which two edges are nearly parallel, so that rounding turns their cross product.
+inline constexpr double kNearlyParallelSineSquared = 1e-6;
+
 /// The unit vector of a x b; zero where a and b are parallel up to rounding. For nearly parallel edges the result is
 /// made perpendicular to the longer one again: the remaining error turns it about that edge only, which moves the facet
 /// of the Minkowski difference that it represents by no more than rounding times the shorter edge.
 inline Vec3 unit_cross(Vec3 a, Vec3 b) {
   constexpr double kParallelSineSquared = 1e-30;
-  constexpr double kNearlyParallelSineSquared = 1e-6;
   const Vec3 c = cross(a, b);
   const double aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
   if (!(cc > kParallelSineSquared * aa * bb)) return {};

@@ -17,7 +17,7 @@ constexpr double kFlat = 4;
 /// Directions within this angle of r count as r [rad].
 constexpr double kAlongR = 0.04;
 
-/// The way from p forth to q, both from 0 to the circumference.
+/// The distance forward from p to q on a circle, both in [0, circumference).
 double way_on_circle(double p, double q, double circumference) {
   return q < p ? q - p + circumference : q - p;
 }

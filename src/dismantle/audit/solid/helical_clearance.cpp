@@ -176,10 +176,11 @@ class HelicalClearance {
     margin_ = motion.deviation * (1 + most_ / pair.b->surface().node(0).reach) + 2 * pair.motion.rounding;
     for (const bool of_b : {false, true}) near_[of_b] = all_faces(of_b);
     separate();
-    // Where an overlap is allowed, few faces are left after this, while those that overlap meet in every part.
+    // Overlapping faces meet in every quarter, but not as shifted copies: these are tried before faces are quartered.
     retract();
-    for (int level = 0; level < kMaxQuarterings && quarter(); ++level) separate();
-    retract();
+    int level = 0;
+    for (; level < kMaxQuarterings && quarter(); ++level) separate();
+    if (level > 0) retract();
   }
 
   /// The faces of which all parts, or shifted copies of them, are apart from the other component, and outside.

@@ -29,7 +29,6 @@ Shadow shadow(const Triangle& t, Vec3 axis) {
 
 /// The cross product of two edges as an axis of separation, of any length; of nearly parallel edges unit_cross().
 Vec3 cross_axis(Vec3 a, Vec3 b) {
-  constexpr double kNearlyParallelSineSquared = 1e-6;
   const Vec3 c = cross(a, b);
   return dot(c, c) > kNearlyParallelSineSquared * dot(a, a) * dot(b, b) ? c : unit_cross(a, b);
 }
