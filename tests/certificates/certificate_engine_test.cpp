@@ -304,7 +304,9 @@ TEST(CertificateEngine, KnowsTheSidesOfOpenSheetsThatAreNearerThanTheTolerance) 
       down.engine.step({{0, 0, -0.005 * step}, {}}, ResponseKind::Slide);
       up.engine.step({{0.1 * step, 0, 0.0005 * step}, {}}, ResponseKind::Slide);
     }
-    EXPECT_GE(down.engine.poses()[0].position.z, -gap - kTolerance) << "gap " << gap;
+    // Sheets in one plane come apart to either side.
+    const double lowest = gap > 0 ? -gap - kTolerance : -0.2;
+    EXPECT_GE(down.engine.poses()[0].position.z, lowest) << "gap " << gap;
     EXPECT_NEAR(up.engine.poses()[0].position.z, 0.02, 1e-12) << "gap " << gap;
   }
 }

@@ -159,23 +159,6 @@ TEST(GhostEngine, TakesAKnifeThatPiercesAFoilOutToOneSideOnly) {
   for (int k = 1; k <= 10; ++k) EXPECT_TRUE(out.engine.step({{0, 0, 0.1 * k}, {}}, ResponseKind::Touch).reached);
 }
 
-TEST(GhostEngine, LetsSheetsThatTouchPartButNotPass) {
-  for (const bool up : {true, false}) {
-    const TriangleMesh plain = scenes::sheet(3, 0), upper = up ? plain : upside_down(plain);
-    const Assembly assembly = scenes::assembly({component("upper", upper), component("lower", scenes::sheet(9, 0))});
-    const PairStates states = states_of(assembly);
-    // Which of the two is above follows from the normals of the first.
-    Grabbed apart(assembly, states, 0), through(assembly, states, 0);
-    const double away = up ? -1 : 1;
-    for (int k = 1; k <= 20; ++k) {
-      apart.engine.step({{0, 0, 0.05 * k * away}, {}}, ResponseKind::Slide);
-      through.engine.step({{0, 0, -0.05 * k * away}, {}}, ResponseKind::Slide);
-    }
-    EXPECT_NEAR(apart.engine.poses()[0].position.z, away, 1e-9);
-    EXPECT_LE(std::abs(through.engine.poses()[0].position.z), kTolerance);
-  }
-}
-
 /// A random convex or hollow shape of about 2 mm.
 TriangleMesh random_shape(std::mt19937_64& random) {
   switch (random() % 5) {

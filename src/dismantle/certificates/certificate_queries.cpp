@@ -133,7 +133,7 @@ FirstContact first_contact(const CertificateSweeper& sweeper, const Pose& target
   for (int k = 0; k < cuts; ++k) {
     const ScrewMotion motion =
         sweeper.motion_between(whole.at(static_cast<double>(k) / cuts), whole.at(static_cast<double>(k + 1) / cuts));
-    const CertificateSweep found = sweeper.sweep_const(motion, 0);
+    const CertificateSweep found = sweeper.sweep_const(motion, 0, target);
     if (found.free) continue;
     const SweepContact& pair = found.blocked.front();
     return {(k + pair.toi) / cuts, false, pair.moving, pair.fixed, pair.face_moving, pair.face_fixed};

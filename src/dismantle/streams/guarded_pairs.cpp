@@ -93,7 +93,7 @@ void GuardedPairs::find_own_ghosts(const PairStates& states, const AssemblyTrian
   const GuardSearch search{&assembly_, &states, &shapes, trees, executor, front_kernels(widest_lanes())};
   for (const FoundGuard& found : find_guards(search)) {
     if (found.guard.guard == PairGuard::None) continue;  // EmbeddedPairs knows it
-    Pair pair{found.a, found.b, found.guard, {PairTest::Certified}};
+    Pair pair{found.a, found.b, found.guard, {PairTest::Certified}, {PairTest::Certified}};
     if (found.guard.guard == PairGuard::Depth) {
       pair.rule.test = PairTest::None;
       solids_.at(found.a).shape = shapes.of(found.a);
@@ -102,10 +102,14 @@ void GuardedPairs::find_own_ghosts(const PairStates& states, const AssemblyTrian
       const auto offset = [&](ComponentId c) {
         return static_cast<std::uint32_t>(ghosts_.displaced.size() - triangles.vertex_begin[c.value]);
       };
-      pair.rule.ghost_a = offset(found.a);
-      add_own_ghost(found.a, found.ghosts[0], triangles);
-      pair.rule.ghost_b = offset(found.b);
-      add_own_ghost(found.b, found.ghosts[1], triangles);
+      const auto add = [&](const std::array<std::vector<Vec3>, 2>& ghosts, PairRule& rule) {
+        rule.ghost_a = offset(found.a);
+        add_own_ghost(found.a, ghosts[0], triangles);
+        rule.ghost_b = offset(found.b);
+        add_own_ghost(found.b, ghosts[1], triangles);
+      };
+      add(found.ghosts, pair.rule);
+      if (found.guard.sides.both) add(found.mirrored, pair.mirrored);
     }
     rules_.set(pair.a, pair.b, pair.rule);
     pairs_.push_back(pair);
@@ -166,6 +170,18 @@ std::vector<BlockingPair> GuardedPairs::too_deep(Span<const RigidTransform> star
   return found;
 }
 
+bool GuardedPairs::begin_motion(Span<const RigidTransform> start, Span<const RigidTransform> end) {
+  bool changed = false;
+  for (Pair& pair : pairs_) {
+    if (pair.guard.parted || move_as_one(start, end, pair.a, pair.b)) continue;
+    const RigidTransform first_as_seen = inverse(end[pair.b.value]) * end[pair.a.value];
+    if (!pair.guard.sides.begin_motion(start[pair.a.value] == start[pair.b.value], first_as_seen, tolerance_)) continue;
+    set_rule(pair);
+    changed = true;
+  }
+  return changed;
+}
+
 bool GuardedPairs::part(Span<const RigidTransform> start, Span<const RigidTransform> end) {
   bool changed = false;
   for (Pair& pair : pairs_)
@@ -181,6 +197,11 @@ bool GuardedPairs::jump(Span<const RigidTransform> state) {
     const bool moved = !(state[pair.a.value] == state[pair.b.value]);
     // A pair that has parted remains so where the ghost surfaces that all have do not meet.
     const bool parted = moved && (pair.guard.parted || apart(pair, state)) && usual_ghosts_apart(pair, state);
+    const RigidTransform first_as_seen = inverse(state[pair.b.value]) * state[pair.a.value];
+    if (pair.guard.sides.jump(!moved, first_as_seen, tolerance_)) {
+      set_rule(pair);
+      changed = true;
+    }
     changed = set_parted(pair, parted) || changed;
   }
   return changed;
@@ -190,8 +211,13 @@ bool GuardedPairs::jump(Span<const RigidTransform> state) {
 bool GuardedPairs::set_parted(Pair& pair, bool parted) {
   if (pair.guard.parted == parted) return false;
   pair.guard.parted = parted;
-  rules_.set(pair.a, pair.b, parted ? PairRule{PairTest::Certified} : pair.rule);
+  set_rule(pair);
   return true;
+}
+
+void GuardedPairs::set_rule(const Pair& pair) {
+  const PairRule& own = pair.guard.sides.mirrored ? pair.mirrored : pair.rule;
+  rules_.set(pair.a, pair.b, pair.guard.parted ? PairRule{PairTest::Certified} : own);
 }
 
 const SolidShape& GuardedPairs::shape(ComponentId c) {

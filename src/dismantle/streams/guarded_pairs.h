@@ -44,6 +44,8 @@ class GuardedPairs {
   /// The contacts of the pairs whose depth is bounded, during a motion on which the points of the one component move
   /// linearly in the frame of the other one. @param start, end world from assembled, shape [component_count]
   std::vector<BlockingPair> too_deep(Span<const RigidTransform> start, Span<const RigidTransform> end) const;
+  /// Chooses the sides of sheets that lie on each other for a motion. @return true if the rules have changed
+  bool begin_motion(Span<const RigidTransform> start, Span<const RigidTransform> end);
   /// Parts the pairs that are further apart than the tolerance after a step. @return true if the rules have changed
   bool part(Span<const RigidTransform> start, Span<const RigidTransform> end);
   /// Finds out which pairs have parted in a state. @return true if the rules have changed
@@ -54,7 +56,8 @@ class GuardedPairs {
   struct Pair {
     ComponentId a, b;
     GuardedPair guard;
-    PairRule rule;  ///< Until it has parted.
+    PairRule rule;      ///< Until it has parted.
+    PairRule mirrored;  ///< The same with the mirrored ghosts of two sheets (SheetSides).
   };
   /// What is known of a component that touches or overlaps another one.
   struct Solid {
@@ -71,6 +74,7 @@ class GuardedPairs {
   bool usual_ghosts_apart(const Pair& pair, Span<const RigidTransform> state);
   ComponentAt placed(ComponentId c, Span<const RigidTransform> state);
   bool set_parted(Pair& pair, bool parted);
+  void set_rule(const Pair& pair);
 
   const Assembly& assembly_;
   double tolerance_;

@@ -52,6 +52,7 @@ SweepResult StreamsEngine::sweep(Span<const RigidTransform> next, double path_de
   parting_.clear();
   next_.assign(next.begin(), next.end());
 
+  if (guards_.begin_motion(state(), next_)) backend_->set_rules(guards_.rules());
   StreamsStep step = backend_->step(next);
   StageClock pairs_clock;
   test_embedded_pairs(step, path_deviation);

@@ -121,7 +121,13 @@ std::vector<FoundGuard> find_guards(const GuardSearch& search) {
       };
       return has_no_thin_place(pair.b) || has_no_thin_place(pair.a);
     };
-    guards[i] = guard_of(pair, by_depth ? std::nullopt : find_pair_ghosts(request), tolerance, one_is_thick);
+    std::optional<PairGhosts> ghosts = by_depth ? std::nullopt : find_pair_ghosts(request);
+    std::optional<MirroredGhosts> mirrored = ghosts ? mirrored_ghosts(request, *ghosts) : std::nullopt;
+    guards[i] = guard_of(pair, std::move(ghosts), tolerance, one_is_thick);
+    if (guards[i] && mirrored) {
+      guards[i]->guard.sides = mirrored->sides;
+      guards[i]->mirrored = std::move(mirrored->vertices);
+    }
     if (!guards[i] || guards[i]->guard.guard != PairGuard::Depth) return;
     FoundGuard& found = *guards[i];
     const double far_allowed = pair.declared > 0 ? found.guard.allowed : tolerance;

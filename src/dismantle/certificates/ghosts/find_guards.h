@@ -4,6 +4,7 @@
 #include "dismantle/assembly/assembly.h"
 #include "dismantle/assembly/pair_state.h"
 #include "dismantle/certificates/ghosts/find_pair_ghosts.h"
+#include "dismantle/certificates/ghosts/sheet_sides.h"
 #include "dismantle/core/keep_going.h"
 #include "dismantle/exec/executor.h"
 #include "dismantle/surface/depth/swept_depth.h"
@@ -36,6 +37,7 @@ struct GuardedPair {
   bool parted = false;   ///< They have been apart: they are treated like any other pair.
   FaceId near_a{0};      ///< A face that was near `near_b` when last looked for; any before.
   FaceId near_b{0};      ///< Of the other component.
+  SheetSides sides{};    ///< Of two sheets that touch.
 };
 
 /// Solids that are further apart than this share of the tolerance have been apart, a bit less than the audit's tenth;
@@ -61,6 +63,8 @@ struct FoundGuard {
   GuardedPair guard;  ///< Not parted.
   /// Displaced vertices of `a` and `b` where they have ghosts of their own [mm, assembled]; else both are empty.
   std::array<std::vector<Vec3>, 2> ghosts;
+  /// The same on the other sides of two sheets; empty unless GuardedPair::sides has both.
+  std::array<std::vector<Vec3>, 2> mirrored{};
 };
 
 /// The shapes of an assembly's components, each built when it is first wanted, by any thread.

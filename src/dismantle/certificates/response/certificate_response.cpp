@@ -31,7 +31,7 @@ StepResult CertificateResponse::step(const Pose& target, ResponseKind response) 
   const Pose goal{target.position, nearer_to(sweeper_.pose().rotation, target.rotation)};
   const Clock::time_point start = Clock::now();
   StepResult result;
-  sweeper_.begin_step();
+  sweeper_.begin_step(goal);
   unfinished_ = undecided_ = false;
   result.pose = sweeper_.pose();
   if (undecided_steps_ == 0 && unfinished_steps_ == 0) resting_ = result.pose;

@@ -160,9 +160,13 @@ void AssemblySurfaces::add_guards(std::vector<FoundGuard> guards, const Executor
     made[i].guard = found.guard;
     if (found.ghosts[0].empty()) return;
     const ComponentId ids[] = {found.a, found.b};
-    for (int k = 0; k < 2; ++k)
-      made[i].ghosts[k] =
-          std::make_shared<const SolidTree>(make_displaced_tree(solid(ids[k]), std::move(found.ghosts[k]), Executor{}));
+    const auto make = [&](int k, std::vector<Vec3>& displaced) {
+      return std::make_shared<const SolidTree>(make_displaced_tree(solid(ids[k]), std::move(displaced), Executor{}));
+    };
+    for (int k = 0; k < 2; ++k) {
+      made[i].ghosts[k] = make(k, found.ghosts[k]);
+      if (found.guard.sides.both) made[i].mirrored[k] = make(k, found.mirrored[k]);
+    }
     const auto prepare = [](const SolidTree& a, const SolidTree& b) {
       return std::make_shared<const std::vector<ThreadMatch>>(prepare_radial_of(a, b));
     };
@@ -184,7 +188,7 @@ Span<const ThreadMatch> AssemblySurfaces::threads(const FrontKey& key) const {
 
 Span<const ThreadMatch> AssemblySurfaces::own_threads(const FrontKey& key) const {
   const auto found = guarded_.find(key.first);
-  if (found == guarded_.end() || key.second == GhostOf::None) return {};
+  if (found == guarded_.end() || (key.second != GhostOf::First && key.second != GhostOf::Second)) return {};
   const auto& threads = found->second.threads[key.second == GhostOf::First ? 0 : 1];
   return threads ? Span<const ThreadMatch>(*threads) : Span<const ThreadMatch>{};
 }

@@ -18,8 +18,8 @@
 
 namespace dismantle {
 
-/// The one of two components that is represented by its ghost surface.
-enum class GhostOf : std::uint8_t { None, First, Second };
+/// The one of two components that is represented by its ghost surface; mirrored for sheets (SheetSides).
+enum class GhostOf : std::uint8_t { None, First, Second, FirstMirrored, SecondMirrored };
 
 /// Two components a < b.
 using PairKey = std::pair<ComponentId, ComponentId>;
@@ -35,8 +35,9 @@ class AssemblySurfaces {
 
   /// The guard of a pair, and the surfaces that it needs.
   struct PairSurfaces {
-    GuardedPair guard;     ///< Not parted.
-    SharedTree ghosts[2];  ///< Of both components, where they have ghosts of their own; else null.
+    GuardedPair guard;       ///< Not parted.
+    SharedTree ghosts[2];    ///< Of both components, where they have ghosts of their own; else null.
+    SharedTree mirrored[2];  ///< Those on the other sides of two sheets (SheetSides); else null.
     /// The mating threads of either ghost and the other component; null where they have no ghosts of their own.
     std::shared_ptr<const std::vector<ThreadMatch>> threads[2];
   };
@@ -60,6 +61,8 @@ class AssemblySurfaces {
   const std::map<PairKey, PairSurfaces>& pairs() const { return guarded_; }
   /// The ghost surfaces that two components a < b have of their own, of a and of b; null where they have none.
   const SharedTree* own_ghosts(const PairKey& pair) const;
+  /// The same, mirrored. @pre the guard's SheetSides has both
+  const SharedTree* mirrored_ghosts(const PairKey& pair) const { return guarded_.at(pair).mirrored; }
   /// The mating threads of the surfaces that components have against all others.
   Span<const ThreadMatch> threads(const FrontKey& key) const;
   /// The mating threads of the ghost surface that one of two components has against the other one alone, and of that

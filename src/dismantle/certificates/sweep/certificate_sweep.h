@@ -16,6 +16,10 @@ enum class SurfacePair : std::uint8_t {
   Plain,        ///< Both as they are: for distances only.
   MovingGhost,  ///< The ghost of the moving component and the fixed one, without an allowance.
   FixedGhost,   ///< The moving component and the ghost of the fixed one, without an allowance.
+  ///@{ The same with the mirrored ghosts of two sheets (SheetSides).
+  MovingMirrored,
+  FixedMirrored,
+  ///@}
 };
 
 /// Two components and the surfaces by which a sweep tests them.

@@ -27,6 +27,10 @@ GhostOf ghost_of(SurfacePair surfaces) {
       return GhostOf::First;
     case SurfacePair::FixedGhost:
       return GhostOf::Second;
+    case SurfacePair::MovingMirrored:
+      return GhostOf::FirstMirrored;
+    case SurfacePair::FixedMirrored:
+      return GhostOf::SecondMirrored;
   }
   return GhostOf::None;
 }
@@ -266,12 +270,12 @@ CertificateSweeper::SeenMotion CertificateSweeper::motion_past(const ScrewMotion
   return {moving, fixed, seen_from(frame, motion.start), seen_from(frame, motion.end)};
 }
 
-CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, double window) const {
+CertificateSweep CertificateSweeper::sweep_const(const ScrewMotion& motion, double window, const Pose& goal) const {
   CertificateSweep result;
   result.clearance = std::numeric_limits<double>::infinity();
   for_each_near(motion, 0, result, [&](ComponentId moving, ComponentId fixed) {
     sweep_depth(motion_past(motion, moving, fixed), DeepSearch::First, result);
-    for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
+    for (const SurfacePair surfaces : surface_pairs(moving, fixed, pose(), goal, poses_[fixed.value])) {
       const TestedPair tested{moving, fixed, surfaces};
       std::optional<CertificateFront> fresh;
       const CertificateFront* front = store_.find(moving, fixed, ghost_of(surfaces), poses_[fixed.value]);
@@ -297,7 +301,8 @@ CertificateSweep CertificateSweeper::sweep_linear(const LinearMotion& motion, do
                      {motion.pose_moving.position + share * motion.displacement, motion.pose_moving.rotation});
   };
   sweep_depth({moving, fixed, at(from), at(to)}, search_for, result, 1, nullptr, max_pieces);
-  for (const SurfacePair surfaces : surface_pairs(moving, fixed)) {
+  const Pose whole_end{motion.pose_moving.position + motion.displacement, motion.pose_moving.rotation};
+  for (const SurfacePair surfaces : surface_pairs(moving, fixed, motion.pose_moving, whole_end, motion.pose_fixed)) {
     const TestedPair tested{moving, fixed, surfaces};
     const TrianglePairSweep triangle_pairs(moving_surface(tested), fixed_surface(tested), at(from), at(to), 0,
                                            tolerance());

@@ -46,7 +46,8 @@ class CertificateSweeper {
   /// @pre the motion's deviation is at most kArcShare of the tolerance (chord_count)
   CertificateSweep sweep(const ScrewMotion& motion, double window, SweepBudget budget = SweepBudget::Exhaustive);
   /// As sweep() for a motion from any pose, leaving the fronts unchanged: any number may run in parallel.
-  CertificateSweep sweep_const(const ScrewMotion& motion, double window) const;
+  /// @param goal end of the whole motion that it is a part of, from the pose of the moving set
+  CertificateSweep sweep_const(const ScrewMotion& motion, double window, const Pose& goal) const;
   /// Sweeps part of a translation of one component past another: reports if it is free, and else some contacts, not
   /// necessarily the first. Independent of the moving set and of all poses. Free for pairs without ghost surfaces.
   /// @param from, to the part, as fractions of the displacement @param search_for, max_pieces of first_deeper()
@@ -84,13 +85,13 @@ class CertificateSweeper {
   std::vector<ComponentPair> overlapping_pairs() const;
   /// Their number.
   std::size_t overlapping_count() const { return guarded_.size() - parted_count_; }
-  /// The surfaces of two components that are tested: each with the ghost of the other; none without ghosts.
-  Span<const SurfacePair> surface_pairs(ComponentId a, ComponentId b) const;
   ///@{ The surfaces of a pair.
   const SolidTree& moving_surface(const TestedPair& pair) const {
+    if (pair.surfaces == SurfacePair::MovingMirrored) return store_.mirrored_ghost(pair.moving, pair.fixed);
     return pair.surfaces == SurfacePair::MovingGhost ? store_.ghost(pair.moving, pair.fixed) : solid(pair.moving);
   }
   const SolidTree& fixed_surface(const TestedPair& pair) const {
+    if (pair.surfaces == SurfacePair::FixedMirrored) return store_.mirrored_ghost(pair.fixed, pair.moving);
     return pair.surfaces == SurfacePair::FixedGhost ? store_.ghost(pair.fixed, pair.moving) : solid(pair.fixed);
   }
   ///@}
@@ -99,11 +100,9 @@ class CertificateSweeper {
   /// Parts the pairs of the moving set that are apart at its pose.
   void part_others();
 
-  /// Begins a step: its sweeps share CertificateOptions::depth_tests. They have no limit outside a step.
-  void begin_step() {
-    depth_tests_left_ = options_.depth_tests > 0 ? options_.depth_tests : kUnlimited;
-    node_pairs_left_ = options_.node_pairs > 0 ? options_.node_pairs : kUnlimited;
-  }
+  /// Begins a step: its sweeps share CertificateOptions::depth_tests. They have no limit outside a step. Sheets that
+  /// lie on each other come apart to the side to which it leads (SheetSides).
+  void begin_step(const Pose& target);
   /// Takes what a sweep of the step examined from that.
   void count_work(const CertificateSweep& sweep) {
     depth_tests_left_ -= std::min(sweep.depth_tests, depth_tests_left_);
@@ -131,6 +130,12 @@ class CertificateSweeper {
   struct PairSweep;
   struct PartTask;
 
+  /// The surfaces of two components that are tested: each with the ghost of the other; none without ghosts.
+  Span<const SurfacePair> surface_pairs(ComponentId a, ComponentId b) const;
+  /// The same for a motion that may be the first one of two sheets past each other.
+  /// @param start, end of the moving component [mm, world]
+  Span<const SurfacePair> surface_pairs(ComponentId moving, ComponentId fixed, const Pose& start, const Pose& end,
+                                        const Pose& pose_fixed) const;
   void set_parted(ComponentId a, ComponentId b, bool parted);
   /// As set_parted(); keeps the count of pairs that have parted.
   void change_parted(ComponentId a, ComponentId b, bool parted);

@@ -17,13 +17,17 @@ void FrontStore::use_own_ghosts(ComponentId a, ComponentId b, bool own) {
     parted_.erase(pair);
   else
     parted_.insert(pair);
-  fronts_.erase({pair, GhostOf::First});
-  fronts_.erase({pair, GhostOf::Second});
+  for (const GhostOf ghost : {GhostOf::First, GhostOf::Second, GhostOf::FirstMirrored, GhostOf::SecondMirrored})
+    fronts_.erase({pair, ghost});
 }
 
 CertificateFront FrontStore::new_front(ComponentId a, ComponentId b, GhostOf ghost) const {
-  const SolidTree& of_a = ghost == GhostOf::First ? this->ghost(a, b) : solid(a);
-  const SolidTree& of_b = ghost == GhostOf::Second ? this->ghost(b, a) : solid(b);
+  const auto tree = [&](ComponentId c, ComponentId other, GhostOf own, GhostOf mirrored) -> const SolidTree& {
+    if (ghost == mirrored) return mirrored_ghost(c, other);
+    return ghost == own ? this->ghost(c, other) : solid(c);
+  };
+  const SolidTree& of_a = tree(a, b, GhostOf::First, GhostOf::FirstMirrored);
+  const SolidTree& of_b = tree(b, a, GhostOf::Second, GhostOf::SecondMirrored);
   // Matches name the threads of the first component first, and belong to the surfaces that they were found in.
   Span<const ThreadMatch> threads;
   if (a < b)
@@ -32,8 +36,20 @@ CertificateFront FrontStore::new_front(ComponentId a, ComponentId b, GhostOf gho
 }
 
 FrontKey FrontStore::key_of(ComponentId x, ComponentId y, GhostOf ghost) {
-  if (x < y || ghost == GhostOf::None) return {{std::min(x, y), std::max(x, y)}, ghost};
-  return {{y, x}, ghost == GhostOf::First ? GhostOf::Second : GhostOf::First};
+  if (x < y) return {{x, y}, ghost};
+  switch (ghost) {
+    case GhostOf::None:
+      break;
+    case GhostOf::First:
+      return {{y, x}, GhostOf::Second};
+    case GhostOf::Second:
+      return {{y, x}, GhostOf::First};
+    case GhostOf::FirstMirrored:
+      return {{y, x}, GhostOf::SecondMirrored};
+    case GhostOf::SecondMirrored:
+      return {{y, x}, GhostOf::FirstMirrored};
+  }
+  return {{y, x}, GhostOf::None};
 }
 
 CertificateFront& FrontStore::prepare(ComponentId moving, ComponentId fixed, GhostOf ghost, Span<const Pose> poses) {

@@ -26,6 +26,10 @@ class FrontStore {
   /// The tree of a component's ghost surface with respect to another component: its own, unless the two have a pair of
   /// their own.
   const SolidTree& ghost(ComponentId c, ComponentId other) const;
+  /// The mirrored one of two sheets. @pre the pair has them
+  const SolidTree& mirrored_ghost(ComponentId c, ComponentId other) const {
+    return *surfaces_->mirrored_ghosts(std::minmax(c, other))[c < other ? 0 : 1];
+  }
   /// Uses the ghosts that two components have of their own, or those that they have against all others.
   void use_own_ghosts(ComponentId a, ComponentId b, bool own);
   /// The bounding spheres of all components.
