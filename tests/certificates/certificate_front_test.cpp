@@ -328,6 +328,32 @@ TEST(CertificateFront, SweepsConstWithoutChanges) {
   EXPECT_EQ(front.size(), 1u);
 }
 
+TEST(CertificateFront, FindsTheSameInTheSameOrderWhetherItIsUpdatedOrNot) {
+  const Body a = body_of(scenes::tube(2, 0, 0, 4, 24, 6)), b = body_of(scenes::tube(4, 1.97, -1, 5, 24, 6));
+  PairMotion motion;
+  motion.t0 = motion.t1 = {{}, a.tree.origin - b.tree.origin};
+  for (const std::size_t max_blocked : {PairMotion().max_blocked, std::size_t{5}}) {
+    motion.max_blocked = max_blocked;
+    const auto sweep = [&](const auto& run) {
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> tested;
+      const FrontSweep found = run([&](const TrianglePairCandidate& c) {
+        tested.emplace_back(c.face_moving, c.face_fixed);
+        TrianglePairVerdict verdict;
+        verdict.free = (c.face_moving + c.face_fixed) % 3 != 0;
+        return verdict;
+      });
+      EXPECT_GT(tested.size(), 10u);
+      return std::tuple(tested, found.blocked, found.node_pairs, found.triangle_tests, found.complete, found.min_gap);
+    };
+    CertificateFront updated(a.tree, b.tree);
+    const CertificateFront kept(a.tree, b.tree);
+    const PreparedSweep prepared = kept.prepare_sweep(motion);
+    const FrontKernels kernels = front_kernels(widest_lanes());
+    EXPECT_EQ(sweep([&](const TrianglePairTest& test) { return kept.sweep_const(prepared, kernels, test); }),
+              sweep([&](const TrianglePairTest& test) { return updated.sweep_part(0, prepared, kernels, test); }));
+  }
+}
+
 TEST(CertificateFront, KeepsItsPairsWhenRolesAreExchanged) {
   const Body a = body_of({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{{0, 1, 2}}}});
   const Body b = body_of({{{-2, -2, 1}, {2, -2, 1}, {0, 2, 1}}, {{{0, 1, 2}}}});

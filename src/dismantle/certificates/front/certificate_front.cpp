@@ -139,6 +139,7 @@ FrontSweep CertificateFront::sweep_const(const PreparedSweep& sweep, const Front
   FrontSweep result;
   for (const CertificatePart& part : parts_) {
     Work work;
+    work.keeps = false;
     find_failing(part, sweep, kernels, work, result);
     if (!work.items.empty()) resolve(work, sweep, kernels, test, result);
   }

@@ -162,11 +162,11 @@ class CertificateFront {
   /// The two nodes as a cylinder in a bore, if the sweep wants fits and they are one.
   std::optional<CylinderFit> fit(std::uint32_t a, std::uint32_t b, const PreparedSweep& sweep) const;
   /// Stores the certificate of a separation that certifies the item. @return false if it does not
-  static bool accept(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
+  static bool accept(Work& work, std::uint32_t i, const NodeSeparation& separation, const LinearSweep& sweep,
                      FrontSweep& result);
-  void test_triangles(Work& work, Item& item, Vec3f hint, const TrianglePairTest& test, FrontSweep& result) const;
-  /// Replaces an item by the halves of its larger node. @return the index of the first
-  std::uint32_t split(Work& work, std::uint32_t i) const;
+  void test_triangles(Work& work, std::uint32_t i, Vec3f hint, const TrianglePairTest& test, FrontSweep& result) const;
+  /// Replaces an item by the halves of its larger node, and appends their indices to a list.
+  void split(Work& work, std::uint32_t i, std::vector<std::uint32_t>& halves) const;
   /// Writes the resolved items back to the part. Pairs that were separated radially stay whole in a sweep that is not
   /// free: the next sweep is another motion.
   static void replace(CertificatePart& part, const Work& work, bool free);

@@ -73,15 +73,14 @@ std::vector<std::uint32_t> CertificateFront::find_starts(Work& work, const Prepa
     const std::uint32_t i = opened[k];
     const std::uint32_t a = work.items[i].a, b = work.items[i].b;
     if (const auto certificate = separate_radially(a, b, sweep, result)) {
-      work.prove(work.items[i], *certificate);
+      work.prove(i, *certificate);
     } else if (std::optional<CylinderFit> blocked_fit = fit(a, b, sweep)) {
       result.fits.push_back(*blocked_fit);
       result.complete = false;
     } else if (nearest.size() + opened.size() - k >= kRadialStarts || (a_->nodes[a].leaf() && b_->nodes[b].leaf())) {
       nearest.emplace_back(radial_gap(a, b, sweep), i);
     } else {
-      const std::uint32_t first = split(work, i);
-      opened.insert(opened.end(), {first, first + 1});
+      split(work, i, opened);
     }
   }
   // The last one comes first.
@@ -124,11 +123,11 @@ void CertificateFront::separate_triangles(Work& work, const PreparedSweep& sweep
   work.merge_known(work.triangle_items, PairResult::Triangles);
 }
 
-bool CertificateFront::accept(Work& work, Item& item, const NodeSeparation& separation, const LinearSweep& sweep,
+bool CertificateFront::accept(Work& work, std::uint32_t i, const NodeSeparation& separation, const LinearSweep& sweep,
                               FrontSweep& result) {
   if (separation.gap < sweep.limit) return false;
   result.min_gap = std::min(result.min_gap, separation.gap);
-  work.prove(item, separation.certificate);
+  work.prove(i, separation.certificate);
   return true;
 }
 
@@ -188,11 +187,11 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
   std::size_t left = 0;
   for (std::size_t k = 0; k < work.batch.size(); ++k) {
     prefetch_radial(work, work.batch, k, sweep);
-    Item& item = work.items[work.batch[k]];
-    if (const auto certificate = separate_radially(item.a, item.b, sweep, result)) {
-      work.prove(item, *certificate);
+    const std::uint32_t i = work.batch[k];
+    if (const auto certificate = separate_radially(work.items[i].a, work.items[i].b, sweep, result)) {
+      work.prove(i, *certificate);
     } else {
-      work.batch[left++] = work.batch[k];
+      work.batch[left++] = i;
     }
   }
   work.batch.resize(left);
@@ -202,29 +201,29 @@ void CertificateFront::resolve_batch(Work& work, const PreparedSweep& sweep, con
     if (work.items[i].are_triangles) work.triangle_items.push_back(i);
   for (std::size_t k = 0; k < work.box_items.size(); ++k) {
     const std::uint32_t i = work.box_items[k];
-    if (accept(work, work.items[i], work.separations[k], sweep, result)) continue;
+    if (accept(work, i, work.separations[k], sweep, result)) continue;
     if (trees().both_leaves(work.items[i].a, work.items[i].b)) {
       work.triangle_items.push_back(i);
     } else {
-      const std::uint32_t first = split(work, i);
-      work.waiting.insert(work.waiting.end(), {first, first + 1});
+      split(work, i, work.waiting);
     }
   }
 
   separate_triangles(work, sweep, kernels);
   for (std::size_t k = 0; k < work.triangle_items.size(); ++k) {
-    Item& item = work.items[work.triangle_items[k]];
-    if (accept(work, item, work.separations[k], sweep, result)) continue;
-    test_triangles(work, item, work.separations[k].certificate.axis, test, result);
+    const std::uint32_t i = work.triangle_items[k];
+    if (accept(work, i, work.separations[k], sweep, result)) continue;
+    test_triangles(work, i, work.separations[k].certificate.axis, test, result);
   }
 }
 
-void CertificateFront::test_triangles(Work& work, Item& item, Vec3f hint, const TrianglePairTest& test,
+void CertificateFront::test_triangles(Work& work, std::uint32_t i, Vec3f hint, const TrianglePairTest& test,
                                       FrontSweep& result) const {
+  const Item item = work.items[i];
   ++result.triangle_tests;
   const BoxPairQuery query = trees().box_query(item.a, item.b);
   const TrianglePairVerdict verdict = test({query.a->child, query.b->child, hint, work.known_test(item)});
-  work.prove(item, verdict.certificate);
+  work.prove(i, verdict.certificate);
   if (!verdict.free || verdict.cut_short) {
     ++result.blocked;
     ++work.blocked[item.start];
@@ -232,10 +231,13 @@ void CertificateFront::test_triangles(Work& work, Item& item, Vec3f hint, const 
   result.min_gap = std::min(result.min_gap, verdict.gap);
 }
 
-std::uint32_t CertificateFront::split(Work& work, std::uint32_t i) const {
+void CertificateFront::split(Work& work, std::uint32_t i, std::vector<std::uint32_t>& halves) const {
   const Item parent = work.items[i];
-  const auto first = static_cast<std::uint32_t>(work.items.size());
-  work.items[i].first_child = first;
+  if (work.keeps) {
+    work.items[i].first_child = static_cast<std::uint32_t>(work.items.size());
+  } else {
+    work.done.push_back(i);
+  }
   const bool splits_of_a = trees().splits_a(parent.a, parent.b);
   const std::uint32_t known =
       work.known_kind(parent) == PairResult::Split ? work.known_pairs[parent.known].first_child : PairResult::kNone;
@@ -249,9 +251,8 @@ std::uint32_t CertificateFront::split(Work& work, std::uint32_t i) const {
     } else {
       child.b = b_->nodes[parent.b].child + k;
     }
-    work.items.push_back(child);
+    halves.push_back(work.add(child));
   }
-  return first;
 }
 
 }  // namespace dismantle

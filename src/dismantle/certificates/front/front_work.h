@@ -29,8 +29,10 @@ struct CertificateFront::Item {
 
 /// Everything that a sweep of one part works on.
 struct CertificateFront::Work {
+  bool keeps = true;                                ///< False: the front stays unchanged, and needs no certificates.
   std::vector<std::uint32_t> failing;               ///< Slots of the pairs whose certificates do not hold.
   std::vector<Item> items;                          ///< These pairs, in order, then their descendants.
+  std::vector<std::uint32_t> done;                  ///< Indices of items to be used again, if nothing is kept.
   std::vector<Certificate> proofs;                  ///< Certificates found.
   std::size_t front_count = 0;                      ///< This many items are pairs of the front.
   std::vector<std::uint32_t> blocked;               ///< Blocked pairs of each start.
@@ -45,10 +47,25 @@ struct CertificateFront::Work {
   Span<const PairResult> known_pairs;               ///< Results of a device, if one was used.
   Span<const TrianglePairResult> known_tests;       ///< Its triangle-pair tests.
 
-  /// Stores the certificate of an item.
-  void prove(Item& item, const Certificate& certificate) {
-    item.proof = static_cast<std::uint32_t>(proofs.size());
+  /// Stores the certificate of an item, which is done.
+  void prove(std::uint32_t i, const Certificate& certificate) {
+    if (!keeps) {
+      done.push_back(i);
+      return;
+    }
+    items[i].proof = static_cast<std::uint32_t>(proofs.size());
     proofs.push_back(certificate);
+  }
+  /// Adds an item. @return its index
+  std::uint32_t add(const Item& item) {
+    if (done.empty()) {
+      items.push_back(item);
+      return static_cast<std::uint32_t>(items.size() - 1);
+    }
+    const std::uint32_t i = done.back();
+    done.pop_back();
+    items[i] = item;
+    return i;
   }
   /// The stage that a device reached with the item.
   PairResult::Kind known_kind(const Item& item) const {
