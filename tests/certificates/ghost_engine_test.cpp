@@ -236,6 +236,36 @@ TEST(GhostEngine, LetsASheetSlideOnATipThatItTouches) {
   }
 }
 
+TEST(GhostEngine, LetsASheetSlideOnATipThatPiercesItAtAVertex) {
+  for (const double depth : {0.0, 0.2 * kTolerance, 0.8 * kTolerance}) {
+    const TriangleMesh sheet = scenes::moved(cells(3, 8), {{0, 0, -depth}, {}});
+    const Assembly assembly = scenes::assembly({component("sheet", sheet), component("tip", pyramid())});
+    const PairStates states = states_of(assembly);
+    for (const ResponseKind response : kResponses) {
+      Grabbed sheet_moves(assembly, states, 0), tip_moves(assembly, states, 1);
+      for (int k = 1; k <= 20; ++k)
+        for (Grabbed* moving : {&sheet_moves, &tip_moves})
+          EXPECT_TRUE(moving->engine.step({{-0.1 * k, 0.07 * k, 0}, {}}, response).reached) << "depth " << depth;
+    }
+  }
+}
+
+TEST(GhostEngine, LetsASheetSlideAtTheHeightOfWhatItIsNear) {
+  const double gap = 0.05 * kTolerance;
+  const TriangleMesh bent{{{-2, -1, gap}, {-2, 1, gap}, {4, -1, gap}, {4, 1, gap}, {6, -1, 0}, {6, 1, 0}},
+                          {{{0, 2, 1}}, {{1, 2, 3}}, {{2, 4, 3}}, {{3, 4, 5}}}};
+  for (const TriangleMesh& sheet : {bent, upside_down(bent)}) {
+    const Assembly assembly =
+        scenes::assembly({component("sheet", sheet), component("block", scenes::box({-20, -20, -5}, {3, 20, 0}))});
+    for (const ResponseKind response : kResponses) {
+      Grabbed moving(assembly, states_of(assembly), 0);
+      for (int k = 1; k <= 20; ++k) EXPECT_TRUE(moving.engine.step({{-0.4 * k, 0.1 * k, 0}, {}}, response).reached);
+      moving.engine.step({{-8, 2, -1}, {}}, ResponseKind::Touch);
+      EXPECT_GE(moving.engine.poses()[0].position.z, -kTolerance);
+    }
+  }
+}
+
 TEST(GhostEngine, LetsASheetSlideOnAnotherOneThatItStandsOn) {
   const TriangleMesh upright = scenes::moved(cells(2, 1), {{0.3, 0.2, 2}, quat_about({1, 0, 0}, kTurn / 4)});
   for (const TriangleMesh& upper : {upright, upside_down(upright)})

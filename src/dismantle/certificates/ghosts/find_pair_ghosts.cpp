@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/certificates/ghosts/find_pair_ghosts.h"
 
-#include "dismantle/certificates/front/certificate_front.h"
 #include "dismantle/certificates/ghosts/coaxial_ghost.h"
 #include "dismantle/certificates/ghosts/displaced_faces.h"
+#include "dismantle/certificates/ghosts/near_face_pairs.h"
 #include "dismantle/certificates/ghosts/separating_ghost.h"
 #include "dismantle/certificates/ghosts/shifted_ghost.h"
 #include "dismantle/certificates/sweep/triangle_pair_sweep.h"
@@ -92,6 +92,15 @@ class GhostSide {
   std::optional<Found> find(double max_length, double depth_limit, bool also_corners) {
     depth_limit_ = depth_limit;
     max_length_ = max_length;
+    std::optional<Found> found = find_displaced(also_corners);
+    // Sheets slide on what they touch or pierce in one place only if all of them is off it.
+    if (found && is_sheet())
+      if (auto shifted = find_shifted(found->vertices)) found->vertices = std::move(*shifted);
+    return found;
+  }
+
+ private:
+  std::optional<Found> find_displaced(bool also_corners) {
     const bool solid = !is_sheet();
     std::vector<std::vector<Vec3>> starts;
     const auto good = [&](std::vector<Vec3> vertices, bool into_solid) -> std::optional<Found> {
@@ -121,7 +130,6 @@ class GhostSide {
     return also_corners ? displace_corners(std::move(starts)) : std::nullopt;
   }
 
- private:
   /// Moves what engages about a shared axis out of the way: where possible only in a range where the overlap is much
   /// deeper than elsewhere, so that the rest still holds the two together.
   std::optional<Found> find_coaxial() {
@@ -179,25 +187,25 @@ class GhostSide {
 
   /// Corners displaced one by one until their faces are apart, from several starts, or the whole surface shifted.
   std::optional<Found> displace_corners(std::vector<std::vector<Vec3>> starts) {
-    if (too_many_near_) return std::nullopt;
-    const FacePairs& near = near_within(max_length_ + kGaps[0] * request_.tolerance);
-    if ((too_many_near_ = near.size() > kMaxNear)) return std::nullopt;
+    const FacePairs* near = few_near();
+    if (!near) return std::nullopt;
     starts.push_back(own_.tree->vertices);
     for (const std::vector<Vec3>& start : starts)
       for (const double share : kGaps) {
         auto moved =
-            separating_ghost({own_.tree, other_.tree, start, near, max_length_, share * request_.tolerance, is_a_});
+            separating_ghost({own_.tree, other_.tree, start, *near, max_length_, share * request_.tolerance, is_a_});
         if (!moved || !apart(*moved) || !shallow(*moved)) continue;
-        // Sheets slide on what they touch in one place only if all of them is off it.
-        auto shifted = is_sheet() || &start == &starts.back() ? find_shifted(near, *moved) : std::nullopt;
+        auto shifted = &start == &starts.back() && !is_sheet() ? find_shifted(*moved) : std::nullopt;
         return Found{shifted ? std::move(*shifted) : std::move(*moved), false};
       }
-    auto shifted = find_shifted(near, {});
+    auto shifted = find_shifted({});
     return shifted ? std::optional(Found{std::move(*shifted), false}) : std::nullopt;
   }
 
   /// The whole surface shifted off the other one. @param off vertices displaced to the right side; none: to either side
-  std::optional<std::vector<Vec3>> find_shifted(const FacePairs& near, Span<const Vec3> off) const {
+  std::optional<std::vector<Vec3>> find_shifted(Span<const Vec3> off) {
+    const FacePairs* near = few_near();
+    if (!near) return std::nullopt;
     // A part that pierces a foil must be shifted further than the depth of the overlap.
     const auto way_with = [&](double share) {
       return std::min(max_length_, request_.depth + share * request_.tolerance);
@@ -205,7 +213,7 @@ class GhostSide {
     return shifted_ghost({own_.tree,
                           other_.tree,
                           &displaced_,
-                          &near,
+                          near,
                           off,
                           {way_with(kGaps[0]), way_with(kGhostLength)},
                           kTouching * request_.tolerance,
@@ -314,34 +322,21 @@ class GhostSide {
 
   bool apart(const std::vector<Vec3>& vertices) const { return displaced_.apart(vertices, overlaps()); }
 
-  /// The pairs of faces of the two components that are nearer than `reach` [mm], and some more; not all of them where
-  /// they are more than kMaxNear.
-  const FacePairs& near_within(double reach) {
-    if (reach <= near_reach_) return near_;
-    // Where the shortest displacements were not enough, somewhat longer ones will be tried as well.
-    near_reach_ = near_reach_ > 0 ? std::max(reach, kMaxFactorForCorners * near_reach_) : reach;
-    near_ = near_faces(*own_.tree, near_reach_, kMaxNear);
-    return near_;
+  /// The pairs of faces that may have to be displaced off each other; null where they are too many.
+  const FacePairs* few_near() {
+    const double reach = max_length_ + kGaps[0] * request_.tolerance;
+    if (!too_many_near_ && reach > near_reach_) {
+      // Where the shortest displacements were not enough, somewhat longer ones will be tried as well.
+      near_reach_ = near_reach_ > 0 ? std::max(reach, kMaxFactorForCorners * near_reach_) : reach;
+      near_ = near_faces(*own_.tree, near_reach_, kMaxNear);
+      too_many_near_ = near_.size() > kMaxNear;
+    }
+    return too_many_near_ ? nullptr : &near_;
   }
 
-  /// The pairs of faces of a surface and of the other component that are nearer than `reach` [mm], and some more; not
-  /// all of them where they are more than `most`.
   FacePairs near_faces(const SolidTree& surface, double reach,
                        std::size_t most = std::numeric_limits<std::size_t>::max()) const {
-    const TrianglePairSweep still(surface, *other_.tree, {}, {}, 0, request_.tolerance);
-    PairMotion motion = still.motion();
-    motion.allowed = -reach;
-    const CertificateFront pairs{
-        surface.tree, other_.tree->tree, surface.revolution.get(), other_.tree->revolution.get(), {}};
-    FacePairs faces;
-    const TrianglePairTest take = [&](const TrianglePairCandidate& candidate) {
-      faces.emplace_back(candidate.face_moving, candidate.face_fixed);
-      return TrianglePairVerdict{};
-    };
-    PreparedSweep all = pairs.prepare_sweep(motion);
-    all.max_tests = most;
-    pairs.sweep_const(all, request_.kernels, take);
-    return faces;
+    return near_face_pairs({&surface, other_.tree, reach, request_.tolerance, request_.kernels, most});
   }
 
   const OverlapSide& own_;

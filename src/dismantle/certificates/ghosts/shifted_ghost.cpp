@@ -4,6 +4,7 @@
 #include "dismantle/narrowphase/distance_triangle_triangle.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace dismantle {
 
@@ -15,11 +16,24 @@ constexpr double kShiftBegins[] = {0.02, 0.9};
 constexpr std::size_t kMaxDirections = 12;
 constexpr double kSameSide = 0.05;
 
+/// The way off the nearest face of the other surface, unit; zero where surfaces touch.
+Vec3 away_from_nearest(const ShiftRequest& request) {
+  TriangleDistance nearest;
+  nearest.distance = std::numeric_limits<double>::infinity();
+  for (const auto& [face_own, face_other] : *request.near) {
+    const TriangleDistance found =
+        distance_triangle_triangle(request.own->triangle(face_own), request.other->triangle(face_other));
+    if (found.distance < nearest.distance) nearest = found;
+  }
+  return request.near->empty() ? Vec3{} : normalized(nearest.point_a - nearest.point_b);
+}
+
 /// Directions in which a surface may come off the other one: normals of faces that touch or intersect, and the mean of
-/// displacements to the right side.
+/// displacements to the right side, or, where nothing is displaced, the way off what is nearest.
 std::vector<Vec3> directions_off(const ShiftRequest& request) {
   Vec3 sum;
   for (std::size_t i = 0; i < request.off.size(); ++i) sum += request.off[i] - request.own->vertices[i];
+  if (length(sum) == 0 && !request.off.empty()) sum = away_from_nearest(request);
   if (length(sum) == 0 && !request.off.empty()) return {};
   std::vector<Vec3> directions;
   const auto add_one = [&](Vec3 d) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/certificates/ghosts/displaced_faces.h"
+#include "dismantle/certificates/ghosts/near_face_pairs.h"
 
 #include <array>
 #include <optional>
@@ -9,9 +10,6 @@
 #include <vector>
 
 namespace dismantle {
-
-/// Pairs of faces of two components.
-using FacePairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 /// A component whose whole surface is to be shifted, and another one that it touches in the assembled state.
 struct ShiftRequest {
