@@ -129,6 +129,23 @@ TEST(SheetSides, AreTakenIntoAccountByQueries) {
     }
 }
 
+TEST(SheetSides, AreOneForSheetsThatAreALittleApart) {
+  for (const double gap : {0.05 * kTolerance, 0.3 * kTolerance, 0.9 * kTolerance})
+    for (const bool up : {true, false}) {
+      const TriangleMesh plain = scenes::sheet(2, gap), upper = up ? plain : upside_down(plain);
+      const Assembly assembly = scenes::assembly({component("upper", upper), component("lower", scenes::sheet(5, 0))});
+      const PairStates states = states_of(assembly);
+      Grabbed down(assembly, states, 0), below(assembly, states, 1);
+      for (int k = 1; k <= 20; ++k) {
+        down.engine.step({{0, 0, -0.1 * kTolerance * k}, {}}, ResponseKind::Touch);
+        below.engine.step({{0, 0, 0.1 * kTolerance * k}, {}}, ResponseKind::Touch);
+      }
+      EXPECT_GE(down.engine.poses()[0].position.z, -gap - kTolerance) << gap;
+      EXPECT_LE(below.engine.poses()[1].position.z, gap + kTolerance) << gap;
+      EXPECT_LT(down.engine.first_contact({{0, 0, -1}, {}}).toi, 0.1);
+    }
+}
+
 TEST(SheetSides, AreOneForASheetAndASolid) {
   const Assembly assembly = scenes::assembly(
       {component("sheet", scenes::sheet(2, 0)), component("block", scenes::box({-5, -5, -5}, {5, 5, 0}))});

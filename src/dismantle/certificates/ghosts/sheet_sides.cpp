@@ -10,14 +10,22 @@ namespace dismantle {
 
 namespace {
 
+/// The way to a mirror image is to be free from this share on: a sheet that is on one side already has no choice.
+constexpr double kBegin = 0.02;
+/// Displacements that differ by less than this share are the same.
+constexpr double kRounding = 1e-6;
+
 bool is_sheet(const SolidTree& tree) {
   return !tree.has_outside && !tree.inside_out;
 }
 
-std::vector<Vec3> mirrored(const std::vector<Vec3>& displaced, const std::vector<Vec3>& vertices) {
-  std::vector<Vec3> mirrored = vertices;
-  for (std::size_t v = 0; v < mirrored.size(); ++v) mirrored[v] += vertices[v] - displaced[v];
-  return mirrored;
+/// The displacement of all vertices, if it is the same.
+std::optional<Vec3> common_shift(const std::vector<Vec3>& displaced, const std::vector<Vec3>& vertices) {
+  if (displaced.empty()) return std::nullopt;
+  const Vec3 shift = displaced[0] - vertices[0];
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    if (length(displaced[v] - vertices[v] - shift) > kRounding * length(shift)) return std::nullopt;
+  return length(shift) > 0 ? std::optional(shift) : std::nullopt;
 }
 
 }  // namespace
@@ -45,19 +53,19 @@ std::optional<MirroredGhosts> mirrored_ghosts(const PairGhostRequest& request, c
   const OverlapSide* sides[] = {&request.a, &request.b};
   MirroredGhosts found;
   for (const std::size_t k : {0, 1}) {
-    const OverlapSide &own = *sides[k], &other = *sides[1 - k];
-    if (ghosts.vertices[k].empty()) return std::nullopt;
-    found.vertices[k] = mirrored(ghosts.vertices[k], own.tree->vertices);
-    if (!DisplacedFaces(own, other, request.tolerance).apart(found.vertices[k], true)) return std::nullopt;
+    const std::vector<Vec3>& vertices = sides[k]->tree->vertices;
+    const std::optional<Vec3> shift = common_shift(ghosts.vertices[k], vertices);
+    if (!shift) return std::nullopt;
+    const DisplacedFaces faces(*sides[k], *sides[1 - k], request.tolerance);
+    if (!faces.free(vertices, -kBegin * *shift, -*shift)) return std::nullopt;
+    for (const Vec3& p : vertices) found.vertices[k].push_back(p - *shift);
+    if (!faces.apart(found.vertices[k], true)) return std::nullopt;
+    if (k == 0) found.sides.direction = normalized(*shift);
   }
-  const std::vector<Vec3>& vertices = request.a.tree->vertices;
-  Vec3 sum, way;
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    sum += vertices[v];
-    way += ghosts.vertices[0][v] - vertices[v];
-  }
-  if (!(length(way) > 0)) return std::nullopt;
-  found.sides = {true, sum / static_cast<double>(vertices.size()), normalized(way)};
+  Vec3 sum;
+  for (const Vec3& p : request.a.tree->vertices) sum += p;
+  found.sides.point = sum / static_cast<double>(request.a.tree->vertices.size());
+  found.sides.both = true;
   return found;
 }
 

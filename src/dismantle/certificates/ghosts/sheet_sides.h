@@ -46,8 +46,8 @@ struct MirroredGhosts {
   SheetSides sides;                           ///< Undecided.
 };
 
-/// Mirrors the ghosts of two sheets at their surfaces; nothing if one of the two is a solid, or where the mirrored
-/// ghosts are not apart from the other sheet.
+/// Mirrors the ghosts of two sheets at their surfaces. Nothing if one of the two is a solid, if they are not shifted as
+/// a whole, or where the other sheet is in the way of the mirror image, or meets it.
 std::optional<MirroredGhosts> mirrored_ghosts(const PairGhostRequest& request, const PairGhosts& ghosts);
 
 }  // namespace dismantle
