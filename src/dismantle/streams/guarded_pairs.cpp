@@ -173,7 +173,7 @@ std::vector<BlockingPair> GuardedPairs::too_deep(Span<const RigidTransform> star
 bool GuardedPairs::begin_motion(Span<const RigidTransform> start, Span<const RigidTransform> end) {
   bool changed = false;
   for (Pair& pair : pairs_) {
-    if (pair.guard.parted || move_as_one(start, end, pair.a, pair.b)) continue;
+    if (!pair.guard.sides.both || pair.guard.parted || move_as_one(start, end, pair.a, pair.b)) continue;
     const RigidTransform first_as_seen = inverse(end[pair.b.value]) * end[pair.a.value];
     if (!pair.guard.sides.begin_motion(start[pair.a.value] == start[pair.b.value], first_as_seen, tolerance_)) continue;
     set_rule(pair);
@@ -197,8 +197,8 @@ bool GuardedPairs::jump(Span<const RigidTransform> state) {
     const bool moved = !(state[pair.a.value] == state[pair.b.value]);
     // A pair that has parted remains so where the ghost surfaces that all have do not meet.
     const bool parted = moved && (pair.guard.parted || apart(pair, state)) && usual_ghosts_apart(pair, state);
-    const RigidTransform first_as_seen = inverse(state[pair.b.value]) * state[pair.a.value];
-    if (pair.guard.sides.jump(!moved, first_as_seen, tolerance_)) {
+    if (pair.guard.sides.both &&
+        pair.guard.sides.jump(!moved, inverse(state[pair.b.value]) * state[pair.a.value], tolerance_)) {
       set_rule(pair);
       changed = true;
     }

@@ -94,14 +94,15 @@ class GhostSide {
     max_length_ = max_length;
     std::optional<Found> found = find_displaced(also_corners);
     // Sheets slide on what they touch or pierce in one place only if all of them is off it.
-    if (found && is_sheet())
+    if (found && own_.is_sheet())
       if (auto shifted = find_shifted(found->vertices)) found->vertices = std::move(*shifted);
     return found;
   }
 
  private:
+  /// As find(), with the length and the limit that it was given.
   std::optional<Found> find_displaced(bool also_corners) {
-    const bool solid = !is_sheet();
+    const bool solid = !own_.is_sheet();
     std::vector<std::vector<Vec3>> starts;
     const auto good = [&](std::vector<Vec3> vertices, bool into_solid) -> std::optional<Found> {
       if (apart(vertices) && shallow(vertices)) return Found{std::move(vertices), into_solid};
@@ -195,7 +196,7 @@ class GhostSide {
         auto moved =
             separating_ghost({own_.tree, other_.tree, start, *near, max_length_, share * request_.tolerance, is_a_});
         if (!moved || !apart(*moved) || !shallow(*moved)) continue;
-        auto shifted = &start == &starts.back() && !is_sheet() ? find_shifted(*moved) : std::nullopt;
+        auto shifted = &start == &starts.back() && !own_.is_sheet() ? find_shifted(*moved) : std::nullopt;
         return Found{shifted ? std::move(*shifted) : std::move(*moved), false};
       }
     auto shifted = find_shifted({});
@@ -293,8 +294,8 @@ class GhostSide {
   /// component than the pair may be. Every such point is then still inside the displaced surface, however long the
   /// displacements are.
   bool shallow(const std::vector<Vec3>& vertices) const {
-    if (max_length_ <= depth_limit_ * (is_sheet() ? kMaxFactorForCorners : 1) * (1 + kRounding)) return true;
-    if (is_sheet()) return false;
+    if (max_length_ <= depth_limit_ * (own_.is_sheet() ? kMaxFactorForCorners : 1) * (1 + kRounding)) return true;
+    if (own_.is_sheet()) return false;
     const SolidTree& own = *own_.tree;
     std::size_t pieces = 0;
     for (const Face& f : own.faces) {
@@ -315,8 +316,6 @@ class GhostSide {
     for (double& n : needed) n = std::max(std::min(margin * n, most), request_.everywhere);
     return needed;
   }
-
-  bool is_sheet() const { return !own_.tree->has_outside && !own_.tree->inside_out; }
 
   bool overlaps() const { return request_.depth > overlap_from(request_); }
 

@@ -20,6 +20,8 @@ struct OverlapSide {
 
   /// The same component.
   const SolidShape& shape() const { return make_shape(); }
+  /// True if it is a sheet, in which nothing is inside.
+  bool is_sheet() const { return !tree->has_outside && !tree->inside_out; }
 };
 
 /// The edges of a component's surface, in which vertices at one position are one.

@@ -4,7 +4,6 @@
 #include "dismantle/certificates/ghosts/displaced_faces.h"
 
 #include <cmath>
-#include <utility>
 
 namespace dismantle {
 
@@ -14,10 +13,6 @@ namespace {
 constexpr double kBegin = 0.02;
 /// Displacements that differ by less than this share are the same.
 constexpr double kRounding = 1e-6;
-
-bool is_sheet(const SolidTree& tree) {
-  return !tree.has_outside && !tree.inside_out;
-}
 
 /// The displacement of all vertices, if it is the same.
 std::optional<Vec3> common_shift(const std::vector<Vec3>& displaced, const std::vector<Vec3>& vertices) {
@@ -49,7 +44,7 @@ bool SheetSides::jump(bool assembled, const RigidTransform& at, double tolerance
 }
 
 std::optional<MirroredGhosts> mirrored_ghosts(const PairGhostRequest& request, const PairGhosts& ghosts) {
-  if (!is_sheet(*request.a.tree) || !is_sheet(*request.b.tree)) return std::nullopt;
+  if (!request.a.is_sheet() || !request.b.is_sheet()) return std::nullopt;
   const OverlapSide* sides[] = {&request.a, &request.b};
   MirroredGhosts found;
   for (const std::size_t k : {0, 1}) {

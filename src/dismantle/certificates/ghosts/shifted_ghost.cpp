@@ -33,8 +33,10 @@ Vec3 away_from_nearest(const ShiftRequest& request) {
 std::vector<Vec3> directions_off(const ShiftRequest& request) {
   Vec3 sum;
   for (std::size_t i = 0; i < request.off.size(); ++i) sum += request.off[i] - request.own->vertices[i];
-  if (length(sum) == 0 && !request.off.empty()) sum = away_from_nearest(request);
-  if (length(sum) == 0 && !request.off.empty()) return {};
+  if (length(sum) == 0 && !request.off.empty()) {
+    sum = away_from_nearest(request);
+    if (length(sum) == 0) return {};
+  }
   std::vector<Vec3> directions;
   const auto add_one = [&](Vec3 d) {
     const auto same = [&](Vec3 known) { return dot(known, d) > 1 - 1e-6; };

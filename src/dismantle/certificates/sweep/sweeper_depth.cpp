@@ -141,7 +141,8 @@ void CertificateSweeper::find_parted() {
       const auto& [first, second] = std::minmax(c, other);
       GuardedPair& pair = guarded_.at({first, second});
       const Pose &a = poses_[first.value], &b = poses_[second.value];
-      pair.sides.jump(a == b, inverse(transform_from_pose(b)) * transform_from_pose(a), tolerance_);
+      if (pair.sides.both)
+        pair.sides.jump(a == b, inverse(transform_from_pose(b)) * transform_from_pose(a), tolerance_);
       // A pair that has parted remains so where the ghost surfaces that all have do not meet.
       const bool parted =
           !(a == b) && (pair.parted || apart(first, second, pair.parting)) && usual_ghosts_apart(first, second);

@@ -48,7 +48,8 @@ Span<const SurfacePair> CertificateSweeper::surface_pairs(ComponentId a, Compone
 Span<const SurfacePair> CertificateSweeper::surface_pairs(ComponentId moving, ComponentId fixed, const Pose& start,
                                                           const Pose& end, const Pose& pose_fixed) const {
   GuardedPair pair = guarded(moving, fixed);
-  pair.sides.begin_motion(start == pose_fixed, first_as_seen(moving < fixed, end, pose_fixed), tolerance_);
+  if (pair.sides.both)
+    pair.sides.begin_motion(start == pose_fixed, first_as_seen(moving < fixed, end, pose_fixed), tolerance_);
   return surface_pairs_of(pair);
 }
 
@@ -59,7 +60,7 @@ void CertificateSweeper::begin_step(const Pose& target) {
     for (const ComponentId other : guarded_of_[moving.value]) {
       GuardedPair& guarded = guarded_.at(std::minmax(moving, other));
       const Pose& fixed = poses_[other.value];
-      if (!guarded.parted && !is_moving_[other.value])
+      if (guarded.sides.both && !guarded.parted && !is_moving_[other.value])
         guarded.sides.begin_motion(pose() == fixed, first_as_seen(moving < other, target, fixed), tolerance_);
     }
 }
