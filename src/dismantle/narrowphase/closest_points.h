@@ -3,6 +3,8 @@
 
 #include "dismantle/geometry/triangle.h"
 
+#include <limits>
+
 namespace dismantle {
 
 /// The closest points of two features, up to rounding. *Inexact*: good for an axis to try or a test with a tolerance,
@@ -60,26 +62,33 @@ DISMANTLE_HOST_DEVICE inline Vec3 closest_point_of_segment(Vec3 a, Vec3 b, Vec3 
 }  // namespace detail
 
 /// The point of a closed triangle that is nearest to `p`. Robust for slivers and degenerate triangles, unlike
-/// closest_points_vertex_face(), and slower: the point is one of the triangle and the nearest one, both up to rounding.
-/// For other triangles the two differ in the last bits only.
+/// closest_points_vertex_face(), and slower for them: the point is one of the triangle and the nearest one, both up to
+/// rounding. For other triangles the two differ in the last bits only.
 DISMANTLE_HOST_DEVICE inline Vec3 closest_point_of_triangle(const Triangle& t, Vec3 p) {
-  Vec3 best = detail::closest_point_of_segment(t[0], t[1], p);
-  double best_squared = length_squared(p - best);
+  // Squared sine of an angle, roughly, from which on a triangle is no sliver.
+  constexpr double kSliver = 1e-8;
+  const Vec3 edge[3] = {t[2] - t[1], t[0] - t[2], t[1] - t[0]};  // opposite to the corners
+  const Vec3 n = cross(edge[2], -edge[1]);
+  const double longest = max(length_squared(edge[0]), max(length_squared(edge[1]), length_squared(edge[2])));
+  const bool is_sliver = !(length_squared(n) > kSliver * longest * longest);
+  const double weight[3] = {dot(n, cross(edge[0], p - t[1])), dot(n, cross(edge[1], p - t[2])),
+                            dot(n, cross(edge[2], p - t[0]))};
+  const bool is_above = weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
+  Vec3 best;
+  double best_squared = std::numeric_limits<double>::infinity();
   const auto consider = [&](Vec3 q) {
     const double squared = length_squared(p - q);
     if (squared >= best_squared) return;
     best_squared = squared;
     best = q;
   };
-  consider(detail::closest_point_of_segment(t[1], t[2], p));
-  consider(detail::closest_point_of_segment(t[2], t[0], p));
-
-  const Vec3 n = normal_unscaled(t);
-  const double weight[3] = {dot(n, cross(t[2] - t[1], p - t[1])), dot(n, cross(t[0] - t[2], p - t[2])),
-                            dot(n, cross(t[1] - t[0], p - t[0]))};
-  const double sum = weight[0] + weight[1] + weight[2];
-  if (weight[0] > 0 && weight[1] > 0 && weight[2] > 0)
-    consider(t[0] + (weight[1] / sum) * (t[1] - t[0]) + (weight[2] / sum) * (t[2] - t[0]));
+  // The edges that the point is beyond; all of a sliver, whose weights are mostly rounding.
+  for (int i = 0; i < 3; ++i)
+    if (is_sliver || !(weight[i] > 0)) consider(detail::closest_point_of_segment(t[(i + 1) % 3], t[(i + 2) % 3], p));
+  if (is_above) {
+    const double sum = weight[0] + weight[1] + weight[2];
+    consider(t[0] + (weight[1] / sum) * edge[2] - (weight[2] / sum) * edge[1]);
+  }
   return best;
 }
 

@@ -26,12 +26,6 @@ constexpr std::size_t kLargestFaces = 16;
 /// Boxes are turned where this share more of the surface is flat along the axes then.
 constexpr double kWorthwhile = 0.1;
 
-/// Squared distance from a point to a box.
-double distance_squared(const Aabb& box, Vec3 p) {
-  const Vec3 outside = max(max(box.lower - p, p - box.upper), Vec3{});
-  return dot(outside, outside);
-}
-
 /// The normals of faces with area, and the areas.
 struct FaceNormals {
   std::vector<Vec3> normal;
@@ -127,6 +121,7 @@ SurfaceTree::SurfaceTree(const TriangleMesh& mesh, const Executor& executor) {
     boxes_[node].extend(boxes_[children.left]);
     boxes_[node].extend(boxes_[children.right]);
   }
+  wide_ = WideBvh(bvh_, boxes_);
 }
 
 double SurfaceTree::distance_to_face(Vec3 point, std::uint32_t face) const {
@@ -134,37 +129,48 @@ double SurfaceTree::distance_to_face(Vec3 point, std::uint32_t face) const {
 }
 
 MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint, double within) const {
-  const Vec3 turned = axes_ * point;
   struct Waiting {
-    NodeIndex node;
-    double squared;
+    std::uint32_t child;
+    float squared;
   };
-  std::array<Waiting, kStackSize> stack;
+  const WideBvh::Distances distances(wide_, axes_ * point);
+  std::array<Waiting, kWideStackSize> stack;
   std::size_t waiting = 0;
-  stack[waiting++] = {bvh_.root(), 0};
-  std::uint32_t best_face = hint;
+  stack[waiting++] = {0, 0};
+  MeshDistance best{0, hint};
   double best_squared = length_squared(point - closest_point_of_triangle(triangles_[hint], point));
   const double limit = within * within * (1 + kRounding);
-  while (waiting > 0) {
+  // What is no nearer than this is of no use.
+  const auto bound = [&] { return rounded_up(std::min(best_squared, limit)); };
+  float farthest = bound();
+  while (waiting > 0 && best_squared > 0) {
     const Waiting at = stack[--waiting];
-    if (at.squared >= best_squared || at.squared > limit) continue;
-    if (at.node < bvh_.leaf_count()) {
-      const std::uint32_t face = bvh_.leaf_triangle[at.node];
+    if (at.squared > farthest) continue;
+    if ((at.child & WideBvh::kLeaf) != 0) {
+      const std::uint32_t face = at.child & ~WideBvh::kLeaf;
       const double squared = length_squared(point - closest_point_of_triangle(triangles_[face], point));
       if (squared >= best_squared) continue;
       best_squared = squared;
-      best_face = face;
+      best.face = face;
+      farthest = bound();
       continue;
     }
-    const BvhChildren children = bvh_.children[at.node - bvh_.leaf_count()];
-    Waiting left{children.left, distance_squared(boxes_[children.left], turned)};
-    Waiting right{children.right, distance_squared(boxes_[children.right], turned)};
-    if (left.squared > right.squared) std::swap(left, right);
-    DISMANTLE_EXPECT(waiting + 2 <= stack.size());
-    stack[waiting++] = right;
-    stack[waiting++] = left;  // the nearer one is visited first
+    const WideBvh::Node& node = wide_[at.child];
+    const Lanes<WideBvh::kWidth> to_boxes = distances.to(node);
+    float squared[WideBvh::kWidth];
+    to_boxes.store(squared);
+    DISMANTLE_EXPECT(waiting + WideBvh::kWidth <= stack.size());
+    const std::size_t begin = waiting;
+    for (unsigned near = bits(to_boxes <= Lanes<WideBvh::kWidth>(farthest)); near != 0; near &= near - 1) {
+      const int k = std::countr_zero(near);
+      // The nearest one is visited first.
+      std::size_t slot = waiting++;
+      for (; slot > begin && stack[slot - 1].squared <= squared[k]; --slot) stack[slot] = stack[slot - 1];
+      stack[slot] = {node.child[k], squared[k]};
+    }
   }
-  return {std::sqrt(best_squared), best_face};
+  best.distance = std::sqrt(best_squared);
+  return best;
 }
 
 }  // namespace dismantle

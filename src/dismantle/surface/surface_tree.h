@@ -2,12 +2,14 @@
 #pragma once
 
 #include "dismantle/bvh/bvh.h"
+#include "dismantle/bvh/wide_bvh.h"
 #include "dismantle/exec/executor.h"
 #include "dismantle/geometry/triangle_mesh.h"
 #include "dismantle/math/mat3.h"
 #include "dismantle/narrowphase/ray_crossing.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -66,58 +68,37 @@ class SurfaceTree {
   // Descending leaves one sibling per level waiting; trees are no deeper than kBvhHeuristicDepth + log2 of the
   // triangles.
   static constexpr std::size_t kStackSize = 80;
+  // The same for nodes with four children, which leave three siblings per level.
+  static constexpr std::size_t kWideStackSize = 3 * kStackSize;
 
   Bvh bvh_;
   Mat3 axes_;
   Aabb bounds_;
   std::vector<Aabb> boxes_;          // of each node, along the axes
+  WideBvh wide_;                     // the same boxes
   std::vector<Triangle> triangles_;  // of the mesh
 };
 
-namespace detail {
-
-/// True if the ray from the origin along `direction` may meet a box given about the origin; false is certain for what
-/// ray_hit() takes for a hit or unclear.
-inline bool ray_may_meet(const Aabb& box, Vec3 direction) {
-  constexpr double kMargin = 1e-10;  // far above kRaySideError
-  double enter = 0, leave = std::numeric_limits<double>::infinity();
-  const double margin = kMargin * (norm_one(box.lower) + norm_one(box.upper));
-  for (int i = 0; i < 3; ++i) {
-    const double lower = box.lower[i] - margin, upper = box.upper[i] + margin;
-    if (direction[i] == 0) {
-      if (lower > 0 || upper < 0) return false;
-      continue;
-    }
-    const double a = lower / direction[i], b = upper / direction[i];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
-  return enter <= leave * (1 + kMargin);
-}
-
-}  // namespace detail
-
 template <class Visit>
 bool SurfaceTree::for_each_hit(Vec3 point, Vec3 direction, const Visit& visit) const {
-  std::array<NodeIndex, kStackSize> stack;
+  const WideBvh::Ray ray(wide_, axes_ * point, axes_ * direction);
+  std::array<std::uint32_t, kWideStackSize> stack;
   std::size_t waiting = 0;
-  stack[waiting++] = bvh_.root();
-  const Vec3 from = axes_ * point, along = axes_ * direction;
+  stack[waiting++] = 0;
   while (waiting > 0) {
-    const NodeIndex node = stack[--waiting];
-    const Aabb& box = boxes_[node];
-    if (!detail::ray_may_meet({box.lower - from, box.upper - from}, along)) continue;
-    if (node >= bvh_.leaf_count()) {
-      const BvhChildren children = bvh_.children[node - bvh_.leaf_count()];
-      DISMANTLE_EXPECT(waiting + 2 <= stack.size());
-      stack[waiting++] = children.right;
-      stack[waiting++] = children.left;
-      continue;
+    const WideBvh::Node& node = wide_[stack[--waiting]];
+    for (unsigned met = ray.met(node); met != 0; met &= met - 1) {
+      const std::uint32_t child = node.child[std::countr_zero(met)];
+      if ((child & WideBvh::kLeaf) == 0) {
+        DISMANTLE_EXPECT(waiting < stack.size());
+        stack[waiting++] = child;
+        continue;
+      }
+      const std::uint32_t face = child & ~WideBvh::kLeaf;
+      const Triangle& t = triangles_[face];
+      const RayHit hit = ray_hit(direction, {{t[0] - point, t[1] - point, t[2] - point}});
+      if (hit != RayHit::Miss && !visit(face, hit)) return false;
     }
-    const std::uint32_t face = bvh_.leaf_triangle[node];
-    const Triangle& t = triangles_[face];
-    const RayHit hit = ray_hit(direction, {{t[0] - point, t[1] - point, t[2] - point}});
-    if (hit != RayHit::Miss && !visit(face, hit)) return false;
   }
   return true;
 }
