@@ -43,7 +43,8 @@ struct Assembly {
   std::string source_file;    ///< File name without its folder.
   std::string source_sha256;  ///< Hash of the file; for a folder of meshes, of its files concatenated in load order.
   std::string source_units = "mm";  ///< Unit of the file, as it states or as the user gave it.
-  double deflection = 0;  ///< Linear tessellation deflection of the import [mm]; 0 where the input was meshes.
+  /// Linear tessellation deflection of the import [mm]; of meshes it is estimated (estimated_deflection()); 0: unknown.
+  double deflection = 0;
   double simplification_error = 0;    ///< Bound of the distance by which simplification moved the surface [mm].
   std::vector<TreeNode> tree;         ///< The product tree; node 0 is the root.
   std::vector<Component> components;  ///< Indexed by ComponentId.

@@ -12,6 +12,7 @@
 #include "dismantle/formats/import/mesh_source.h"
 #include "dismantle/formats/import/referenced_file.h"
 #include "dismantle/formats/import/units.h"
+#include "dismantle/loading/estimated_deflection.h"
 #include "dismantle/loading/import_budget.h"
 #include "dismantle/loading/reader_messages.h"
 #include "dismantle/loading/reader_program.h"
@@ -205,6 +206,7 @@ Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& option
     if (!assembly) return assembly;
     if (const Result<Done> sane = check_coordinates(*assembly); !sane) return sane.error();
     clean_names(*assembly);
+    if (assembly->deflection == 0) assembly->deflection = estimated_deflection(*assembly);
     if (options.drop_duplicates) {
       std::vector<ComponentId> duplicates;
       for (const Duplicate& d : find_duplicates(*assembly)) duplicates.push_back(d.component);

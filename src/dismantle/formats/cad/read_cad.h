@@ -9,13 +9,6 @@
 
 namespace dismantle {
 
-/// Default linear deflection, relative to the diagonal of the assembly's bounding box. One absolute value for the whole
-/// assembly, as its tolerance follows from the coarsest component.
-inline constexpr double kDefaultRelativeDeflection = 5e-5;
-/// Default angular deflection [rad]: 20 degrees, 18 sides to a full turn. Refines small round features of large
-/// assemblies.
-inline constexpr double kDefaultAngularDeflection = 0.3490658503988659;
-
 /// True if the extension is that of a CAD file, in upper or lower case: .step, .stp, .iges, .igs, .brep, .brp,
 /// .fcstd.
 bool is_cad_file(const std::filesystem::path& file);

@@ -29,6 +29,13 @@ enum class Solids {
   Join,   ///< One component of all.
 };
 
+/// Default linear deflection, relative to the diagonal of the assembly's bounding box. One absolute value for the whole
+/// assembly, as its tolerance follows from the coarsest component.
+inline constexpr double kDefaultRelativeDeflection = 5e-5;
+/// Default angular deflection [rad]: 20 degrees, 18 sides to a full turn. Refines small round features of large
+/// assemblies.
+inline constexpr double kDefaultAngularDeflection = 0.3490658503988659;
+
 /// Options of every reader.
 struct ImportOptions {
   std::string units;  ///< "mm", "cm", "m", "um", "in", "ft": overrides what the file says; empty: as the file says, mm
