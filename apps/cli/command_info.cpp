@@ -152,6 +152,7 @@ Json to_json(const Assembly& a) {
             {"triangles", triangle_count(a)},
             {"bounds", {to_json(box.lower), to_json(box.upper)}},
             {"deflection_mm", a.deflection},
+            {"deflection_is_estimated", a.deflection_is_estimated},
             {"simplification_error_mm", a.simplification_error},
             {"default_tolerance_mm", default_tolerance(a)}}},
           {"fasteners", fasteners_json(a)},
@@ -167,7 +168,9 @@ void print_text(const Assembly& a) {
   const auto length = [](double mm) { return number_text(mm, 6); };
   fmt::print("units {}, size {} x {} x {} mm, default tolerance {} mm\n", a.source_units, length(size.x),
              length(size.y), length(size.z), number_text(default_tolerance(a), 4));
-  if (a.deflection > 0) fmt::print("tessellation deflection {} mm\n", number_text(a.deflection, 4));
+  if (a.deflection > 0)
+    fmt::print("tessellation deflection {} mm{}\n", number_text(a.deflection, 4),
+               a.deflection_is_estimated ? " (estimated from the facets)" : "");
   if (a.simplification_error > 0)
     fmt::print("simplification moved the surface by at most {} mm\n", number_text(a.simplification_error, 4));
   print_split(a);

@@ -42,12 +42,12 @@ struct TreeNode {
 struct Assembly {
   std::string source_file;    ///< File name without its folder.
   std::string source_sha256;  ///< Hash of the file; for a folder of meshes, of its files concatenated in load order.
-  std::string source_units = "mm";  ///< Unit of the file, as it states or as the user gave it.
-  /// Linear tessellation deflection of the import [mm]; of meshes it is estimated (estimated_deflection()); 0: unknown.
-  double deflection = 0;
-  double simplification_error = 0;    ///< Bound of the distance by which simplification moved the surface [mm].
-  std::vector<TreeNode> tree;         ///< The product tree; node 0 is the root.
-  std::vector<Component> components;  ///< Indexed by ComponentId.
+  std::string source_units = "mm";       ///< Unit of the file, as it states or as the user gave it.
+  double deflection = 0;                 ///< Linear tessellation deflection [mm]; 0: unknown.
+  bool deflection_is_estimated = false;  ///< It is that of meshes, found from their facets (estimated_deflection()).
+  double simplification_error = 0;       ///< Bound of the distance by which simplification moved the surface [mm].
+  std::vector<TreeNode> tree;            ///< The product tree; node 0 is the root.
+  std::vector<Component> components;     ///< Indexed by ComponentId.
 
   /// A component. @pre `id` is one of this assembly
   const Component& operator[](ComponentId id) const { return components[id.value]; }

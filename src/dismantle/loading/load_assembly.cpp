@@ -206,7 +206,10 @@ Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& option
     if (!assembly) return assembly;
     if (const Result<Done> sane = check_coordinates(*assembly); !sane) return sane.error();
     clean_names(*assembly);
-    if (assembly->deflection == 0) assembly->deflection = estimated_deflection(*assembly);
+    if (assembly->deflection == 0) {
+      assembly->deflection = estimated_deflection(*assembly);
+      assembly->deflection_is_estimated = assembly->deflection > 0;
+    }
     if (options.drop_duplicates) {
       std::vector<ComponentId> duplicates;
       for (const Duplicate& d : find_duplicates(*assembly)) duplicates.push_back(d.component);

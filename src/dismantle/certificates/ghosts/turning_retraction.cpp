@@ -88,11 +88,13 @@ class Turning {
     std::vector<std::uint32_t> faces;
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0;  // from the axis [mm]
     double begin = nearest, end = -nearest;                                  // along the axis [mm]
+    double sagitta = 0;                                                      // the largest one of a facet [mm]
 
     void add(std::uint32_t face, const Facet& facet) {
       faces.push_back(face);
       nearest = std::min(nearest, facet.nearest);
       farthest = std::max(farthest, facet.farthest);
+      sagitta = std::max(sagitta, facet.farthest - facet.nearest);
       for (const double at : facet.along) {
         begin = std::min(begin, at);
         end = std::max(end, at);
@@ -197,9 +199,12 @@ class Turning {
       for (const auto& [their_radius, g] : theirs) {
         if (mine_radius * their_radius > 0 || f.end < g.begin || g.end < f.begin) continue;
         const Cylinder &shaft = mine_radius > 0 ? f : g, &bore = mine_radius > 0 ? g : f;
-        const double overlap = shaft.farthest - bore.nearest;
-        const double sagittas = (shaft.farthest - shaft.nearest) + (bore.farthest - bore.nearest);
-        if (overlap <= 0 || overlap > depth_ + sagittas + tolerance_) continue;
+        // Facets of slightly different radii are one cylinder here: those that overlap may be beside each other.
+        // Turning makes the depth at the start larger by no more than both sagittas.
+        const double most = depth_ + shaft.sagitta + bore.sagitta;
+        double overlap = shaft.farthest - bore.nearest;
+        if (overlap <= 0 || overlap > most + tolerance_) continue;
+        overlap = std::min(overlap, most);
         if (!f.is_round(axis, own_) || !g.is_round(axis, other_)) continue;
         found_.largest = std::max(found_.largest, overlap);
         for (const std::uint32_t face : f.faces) found_.needed[face] = std::max(found_.needed[face], overlap);
