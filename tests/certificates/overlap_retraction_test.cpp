@@ -146,6 +146,24 @@ TEST(TurningRetraction, IsWhatCornersNeedToPassTheMiddlesOfFacets) {
   }
 }
 
+TEST(TurningRetraction, IsNoMoreThanTheDepthAndBothSagittasWhereRadiiDiffer) {
+  // The audit accepts no more. Every other ring of corners of the shaft is 0.01 beyond the bore, but rests beside it.
+  TriangleMesh uneven = scenes::tube(5, 1, -5, 15, 200, 8);
+  for (Vec3& p : uneven.vertices) {
+    if (std::hypot(p.x, p.y) < 4) continue;
+    const double factor = std::fmod(p.z + 5, 5) < 1 ? 5.0099 / 5 : 4.99 / 5;
+    p = {factor * p.x, factor * p.y, p.z};
+  }
+  const Solid shaft(uneven), ring(scenes::tube(9, 5, 0, 10, 200, 2));
+  const double sagitta = 5 * (1 - std::cos(kTurn / 2 / 200)), depth = 0.001, tolerance = 0.02;
+  for (const bool of_shaft : {true, false}) {
+    const SolidTree &own = of_shaft ? shaft.tree : ring.tree, &other = of_shaft ? ring.tree : shaft.tree;
+    const TurningRetraction found = turning_retraction(own, other, depth, tolerance);
+    EXPECT_GT(found.largest, depth);
+    EXPECT_LE(found.largest, depth + 2 * 1.01 * sagitta);
+  }
+}
+
 TEST(TurningRetraction, IsNothingForBarsAndForThoseThatAreClear) {
   const Solid bar(scenes::tube(5, 1, -5, 15, 8, 2)), hole(scenes::tube(9, 5, 0, 10, 8, 2));
   EXPECT_EQ(turning_retraction(bar.tree, hole.tree, 0.01, kTolerance).largest, 0);

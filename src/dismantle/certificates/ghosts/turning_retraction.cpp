@@ -65,6 +65,7 @@ class Turning {
     double along[3];                   // of its corners [mm]
     double nearest = 0, farthest = 0;  // distances from the axis [mm]
     double on_circle = 0;              // that of the second farthest corner [mm]
+    double sagitta = 0;                // of the arc that the face spans about the axis [mm]
     bool is_shaft = false;             // its normal points away from the axis
 
     Facet(const AxisFrame& axis, const Triangle& t, const Vec3& normal) {
@@ -77,8 +78,13 @@ class Turning {
       std::sort(std::begin(corners), std::end(corners));
       on_circle = corners[1];
       nearest = farthest = corners[2];
-      for (int i = 0; i < 3; ++i)
-        nearest = std::min(nearest, AxisFrame::distance_of_segment(across[i], across[(i + 1) % 3]));
+      double cosine = 1;  // of the angle that it spans
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 &from = across[i], &to = across[(i + 1) % 3];
+        nearest = std::min(nearest, AxisFrame::distance_of_segment(from, to));
+        cosine = std::min(cosine, dot(from, to) / (length(from) * length(to)));
+      }
+      sagitta = farthest * (1 - std::sqrt(std::max(0.0, (1 + cosine) / 2)));
       is_shaft = dot(normal, across[0]) > 0;
     }
   };
@@ -94,7 +100,7 @@ class Turning {
       faces.push_back(face);
       nearest = std::min(nearest, facet.nearest);
       farthest = std::max(farthest, facet.farthest);
-      sagitta = std::max(sagitta, facet.farthest - facet.nearest);
+      sagitta = std::max(sagitta, facet.sagitta);
       for (const double at : facet.along) {
         begin = std::min(begin, at);
         end = std::max(end, at);
@@ -200,7 +206,7 @@ class Turning {
         if (mine_radius * their_radius > 0 || f.end < g.begin || g.end < f.begin) continue;
         const Cylinder &shaft = mine_radius > 0 ? f : g, &bore = mine_radius > 0 ? g : f;
         // Facets of slightly different radii are one cylinder here: those that overlap may be beside each other.
-        // Turning makes the depth at the start larger by no more than both sagittas.
+        // Turning alone makes the depth at the start larger by no more than both sagittas.
         const double most = depth_ + shaft.sagitta + bore.sagitta;
         double overlap = shaft.farthest - bore.nearest;
         if (overlap <= 0 || overlap > most + tolerance_) continue;
