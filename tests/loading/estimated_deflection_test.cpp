@@ -9,6 +9,7 @@
 #include "tests/support/scratch_folder.h"
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
 
 namespace dismantle {
@@ -56,6 +57,19 @@ TEST(EstimatedDeflection, IsNoMoreThanThatOfCadFiles) {
   EXPECT_EQ(estimated_deflection(alone), kDefaultRelativeDeflection * diagonal(assembled_bounds(alone)));
 }
 
+TEST(EstimatedDeflection, CountsWhereAReaderKnowsOnlyThatOfPrimitives) {
+  const ScratchFolder folder;
+  const Assembly mesh = with_far_block(scenes::tube(3, 0, -2, 5, 24));
+  ASSERT_TRUE(write_assembly(folder / "part.obj", mesh).ok());
+  std::ofstream(folder / "robot.urdf") << R"(<robot name="r"><link name="l">
+    <visual><geometry><mesh filename="part.obj" scale="0.001 0.001 0.001"/></geometry></visual>
+    <visual><geometry><sphere radius="0.0001"/></geometry></visual></link></robot>)";
+  const auto robot = load_assembly(folder / "robot.urdf");
+  ASSERT_TRUE(robot.ok()) << message_of(robot);
+  EXPECT_TRUE(robot->deflection_is_estimated);
+  EXPECT_NEAR(robot->deflection, 2 * height_of(3, 24), 0.03 * 2 * height_of(3, 24));
+}
+
 TEST(EstimatedDeflection, OfTheMeshesOfACadFileIsThatOfTheFile) {
   for (const char* sample : {"tooling", "robot"}) {
     const auto from_cad = load_assembly(std::string(DISMANTLE_SOURCE_DIR "/samples/") + sample + ".step");
@@ -65,6 +79,8 @@ TEST(EstimatedDeflection, OfTheMeshesOfACadFileIsThatOfTheFile) {
     ASSERT_TRUE(write_assembly(folder / "meshes", *from_cad).ok());
     const auto from_meshes = load_assembly(folder / "meshes");
     ASSERT_TRUE(from_meshes.ok()) << message_of(from_meshes);
+    EXPECT_FALSE(from_cad->deflection_is_estimated);
+    EXPECT_TRUE(from_meshes->deflection_is_estimated);
     EXPECT_NEAR(default_tolerance(*from_meshes), default_tolerance(*from_cad), 0.05 * default_tolerance(*from_cad));
   }
 }

@@ -74,7 +74,7 @@ class WideBvh {
       for (int i = 0; i < 3; ++i) {
         point_[i] = static_cast<float>(from[i]);
         const auto along = static_cast<float>(direction[i] / size);
-        // The ray leaves the margin by nothing within the boxes.
+        // So small a component moves the ray by far less than the margin within the boxes.
         is_across_[i] = std::abs(along) < kAcross;
         per_length_[i] = is_across_[i] ? 0 : 1 / along;
       }

@@ -194,6 +194,17 @@ void clean_names(Assembly& assembly) {
   make_names_unique(assembly.components);
 }
 
+/// Estimates the deflection where the reader does not know it, or only that of primitives among the meshes.
+void estimate_deflection(Assembly& assembly, const FormatEntry* format) {
+  const bool has_primitives =
+      format != nullptr && (format->format == FileFormat::Urdf || format->format == FileFormat::Vrml);
+  if (assembly.deflection > 0 && !has_primitives) return;
+  const double estimate = estimated_deflection(assembly);
+  if (!(estimate > assembly.deflection)) return;
+  assembly.deflection = estimate;
+  assembly.deflection_is_estimated = true;
+}
+
 }  // namespace
 
 Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& options) {
@@ -206,10 +217,7 @@ Result<Assembly> load_assembly(const fs::path& file, const ImportOptions& option
     if (!assembly) return assembly;
     if (const Result<Done> sane = check_coordinates(*assembly); !sane) return sane.error();
     clean_names(*assembly);
-    if (assembly->deflection == 0) {
-      assembly->deflection = estimated_deflection(*assembly);
-      assembly->deflection_is_estimated = assembly->deflection > 0;
-    }
+    estimate_deflection(*assembly, *format);
     if (options.drop_duplicates) {
       std::vector<ComponentId> duplicates;
       for (const Duplicate& d : find_duplicates(*assembly)) duplicates.push_back(d.component);
