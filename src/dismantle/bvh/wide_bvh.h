@@ -4,10 +4,7 @@
 #include "dismantle/bvh/bvh.h"
 #include "dismantle/core/span.h"
 #include "dismantle/geometry/aabb.h"
-#include "dismantle/math/lanes.h"
-#include "dismantle/math/vec3f.h"
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -39,80 +36,35 @@ class WideBvh {
   /// A node.
   const Node& operator[](std::uint32_t index) const { return nodes_[index]; }
 
-  /// Lower bounds of the squared distances from a point to the boxes of a node.
+  /// Distances from a point to the boxes of nodes.
   class Distances {
    public:
     /// @param point [mm, frame of the boxes]
-    Distances(const WideBvh& bvh, Vec3 point) : margin_(bvh.margin(point)) {
-      const Vec3 from = point - bvh.origin_;
-      for (int i = 0; i < 3; ++i) point_[i] = static_cast<float>(from[i]);
-    }
-    /// [mm^2] infinite where there is no child.
-    Lanes<kWidth> to(const Node& node) const {
-      Lanes<kWidth> squared(0);
-      for (int i = 0; i < 3; ++i) {
-        const Lanes<kWidth> below = Lanes<kWidth>::load(node.lower[i]) - point_[i];
-        const Lanes<kWidth> above = point_[i] - Lanes<kWidth>::load(node.upper[i]);
-        const Lanes<kWidth> outside = max(max(below, above) - margin_, Lanes<kWidth>(0));
-        squared = squared + outside * outside;
-      }
-      return squared * Lanes<kWidth>(1 - kSquareRounding);
-    }
+    Distances(const WideBvh& bvh, Vec3 point);
+    /// Bit i is set if the squared distance to the box of child i may be at most `limit` [mm^2].
+    /// @param squared gets lower bounds of the squared distances, infinite where there is no child [mm^2]
+    unsigned within(const Node& node, float limit, float (&squared)[kWidth]) const;
 
    private:
-    Lanes<kWidth> point_[3];
-    Lanes<kWidth> margin_;
+    float point_[3], margin_;
   };
 
-  /// Finds the boxes of a node that a ray may meet.
+  /// Finds the boxes of nodes that a ray may meet.
   class Ray {
    public:
     /// @param point, direction [mm, frame of the boxes]; the direction of any length but zero
-    Ray(const WideBvh& bvh, Vec3 point, Vec3 direction) : margin_(bvh.margin(point)) {
-      const Vec3 from = point - bvh.origin_;
-      const double size = max_abs(direction);
-      for (int i = 0; i < 3; ++i) {
-        point_[i] = static_cast<float>(from[i]);
-        const auto along = static_cast<float>(direction[i] / size);
-        // So small a component moves the ray by far less than the margin within the boxes.
-        is_across_[i] = std::abs(along) < kAcross;
-        per_length_[i] = is_across_[i] ? 0 : 1 / along;
-      }
-    }
+    Ray(const WideBvh& bvh, Vec3 point, Vec3 direction);
     /// Bit i is set if the ray may meet the box of child i.
-    unsigned met(const Node& node) const {
-      Lanes<kWidth> enter(0), leave(kFar);
-      LaneMask<kWidth> may = enter <= leave;
-      for (int i = 0; i < 3; ++i) {
-        const Lanes<kWidth> lower = Lanes<kWidth>::load(node.lower[i]) - point_[i] - margin_;
-        const Lanes<kWidth> upper = Lanes<kWidth>::load(node.upper[i]) - point_[i] + margin_;
-        may = may & (lower <= upper);
-        if (is_across_[i]) {
-          may = may & (lower <= Lanes<kWidth>(0)) & (upper >= Lanes<kWidth>(0));
-          continue;
-        }
-        const Lanes<kWidth> a = lower * per_length_[i], b = upper * per_length_[i];
-        enter = max(enter, min(a, b));
-        leave = min(leave, max(a, b));
-      }
-      return bits(may & (enter <= leave));
-    }
+    unsigned met(const Node& node) const;
 
    private:
-    static constexpr float kAcross = 1e-12f, kFar = 3e38f;
-    Lanes<kWidth> point_[3], per_length_[3];
+    float point_[3], per_length_[3], margin_;
     bool is_across_[3];
-    Lanes<kWidth> margin_;
   };
 
  private:
-  // Rounding of a squared distance in single precision: three squares of differences, and their sum.
-  static constexpr float kSquareRounding = 0x1p-20f;
-  // Rounding of a difference of coordinates, relative to their sizes: 2^-24 each for the point, the difference, and
-  // what is made of it.
-  static constexpr double kPositionRounding = 0x1p-21;
-
-  float margin(Vec3 point) const { return rounded_up(kPositionRounding * (size_ + norm_one(point - origin_))); }
+  /// Bound of the rounding of differences of coordinates to a point.
+  float margin(Vec3 point) const;
 
   Vec3 origin_;      // middle of the root's box
   double size_ = 0;  // bound of the coordinates of the boxes, from there [mm]

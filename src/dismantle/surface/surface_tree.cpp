@@ -2,6 +2,7 @@
 #include "dismantle/surface/surface_tree.h"
 
 #include "dismantle/bvh/bvh_build.h"
+#include "dismantle/math/vec3f.h"
 #include "dismantle/narrowphase/closest_points.h"
 
 #include <algorithm>
@@ -156,12 +157,10 @@ MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint, double within
       continue;
     }
     const WideBvh::Node& node = wide_[at.child];
-    const Lanes<WideBvh::kWidth> to_boxes = distances.to(node);
     float squared[WideBvh::kWidth];
-    to_boxes.store(squared);
     DISMANTLE_EXPECT(waiting + WideBvh::kWidth <= stack.size());
     const std::size_t begin = waiting;
-    for (unsigned near = bits(to_boxes <= Lanes<WideBvh::kWidth>(farthest)); near != 0; near &= near - 1) {
+    for (unsigned near = distances.within(node, farthest, squared); near != 0; near &= near - 1) {
       const int k = std::countr_zero(near);
       // The nearest one is visited first.
       std::size_t slot = waiting++;
