@@ -21,7 +21,7 @@ constexpr float kSquareRounding = 0x1p-20f;
 /// Rounding of a difference of coordinates, relative to their sizes: 2^-24 each for the point, the difference, and what
 /// is made of it.
 constexpr double kPositionRounding = 0x1p-21;
-/// So small a component of a direction moves the ray by far less than the margin within the boxes.
+/// A smaller component of a direction moves the ray by far less than the margin within the boxes.
 constexpr float kAcross = 1e-12f;
 
 using Four = Lanes<WideBvh::kWidth>;

@@ -14,15 +14,16 @@ namespace dismantle {
 
 namespace {
 
-/// Facets that meet at an angle between these stand for a curved surface [rad]; at a larger one, the edge may be meant.
+/// Edges with an angle in this range are taken for the tessellation of a curved surface [rad]; sharper ones may be
+/// edges of the part.
 constexpr double kSmallestAngle = 1e-3, kLargestAngle = 0.6;
-/// This share of the edges, by length, is off by no more than the estimate: single edges may be off by anything.
+/// The estimate covers this share of the edges, by length; the rest are outliers, such as chamfers and drafts.
 constexpr double kShare = 0.95;
-/// The deflection that a kernel is asked for is this many times the height that arcs have above their chords then
-/// (measured on nine assemblies that OpenCASCADE tessellated: 1.97 to 2.06).
-constexpr double kOfKernels = 2;
-/// About this many edges are looked at.
-constexpr std::size_t kEnoughEdges = 1000000;
+/// Ratio of the deflection given to OpenCASCADE to the resulting height of arcs above their chords (2.00 to 2.06 for
+/// nine assemblies).
+constexpr double kDeflectionOfHeight = 2;
+/// Assemblies with more edges are sampled.
+constexpr std::size_t kMaxEdges = 1000000;
 
 /// An edge between facets of a curved surface.
 struct CurvedEdge {
@@ -30,7 +31,7 @@ struct CurvedEdge {
   double length;  ///< [mm]
 };
 
-/// Adds the edges of a mesh that are between facets of a curved surface. @param stride takes each edge of so many
+/// Adds the edges of a mesh that are between facets of a curved surface. @param stride samples every stride-th edge
 void add_curved_edges(const TriangleMesh& mesh, std::size_t stride, std::vector<CurvedEdge>& edges) {
   const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh.faces);
   std::size_t next = 0;
@@ -42,7 +43,7 @@ void add_curved_edges(const TriangleMesh& mesh, std::size_t stride, std::vector<
     if (!(angle > kSmallestAngle && angle < kLargestAngle)) return;
     const double along = length(mesh.vertices[first->low] - mesh.vertices[first->high]);
     if (!(along > 0)) return;
-    // A facet of width w that turns by the angle has the radius w / angle.
+    // The radius of curvature is width / angle, the height of the arc width^2 / (8 radius).
     const double width = std::min(length(normal[0]), length(normal[1])) / along;
     edges.push_back({width * angle / 8, along});
   });
@@ -60,14 +61,15 @@ double estimated_deflection(const Assembly& assembly) {
     faces += c.mesh->faces.size();
   }
   std::vector<CurvedEdge> edges;
-  for (const TriangleMesh* mesh : in_order) add_curved_edges(*mesh, 3 * faces / (2 * kEnoughEdges) + 1, edges);
+  for (const TriangleMesh* mesh : in_order) add_curved_edges(*mesh, 3 * faces / (2 * kMaxEdges) + 1, edges);
   if (edges.empty()) return 0;
   std::sort(edges.begin(), edges.end(), [](const CurvedEdge& x, const CurvedEdge& y) { return x.height < y.height; });
   double whole = 0, sum = 0;
   for (const CurvedEdge& e : edges) whole += e.length;
   std::size_t at = 0;
   while (at + 1 < edges.size() && (sum += edges[at].length) < kShare * whole) ++at;
-  return std::min(kOfKernels * edges[at].height, kDefaultRelativeDeflection * diagonal(assembled_bounds(assembly)));
+  return std::min(kDeflectionOfHeight * edges[at].height,
+                  kDefaultRelativeDeflection * diagonal(assembled_bounds(assembly)));
 }
 
 }  // namespace dismantle

@@ -141,7 +141,7 @@ MeshDistance SurfaceTree::distance(Vec3 point, std::uint32_t hint, double within
   MeshDistance best{0, hint};
   double best_squared = length_squared(point - closest_point_of_triangle(triangles_[hint], point));
   const double limit = within * within * (1 + kRounding);
-  // What is no nearer than this is of no use.
+  // Boxes that are farther away than this are skipped.
   const auto bound = [&] { return rounded_up(std::min(best_squared, limit)); };
   float farthest = bound();
   while (waiting > 0 && best_squared > 0) {

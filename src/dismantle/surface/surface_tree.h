@@ -22,7 +22,7 @@ struct MeshDistance {
   std::uint32_t face = 0;  ///< The triangle.
 };
 
-/// A mesh in its own frame with a BVH of boxes in double: distances of points, by branch and bound, and the triangles
+/// A mesh in its own frame with a BVH of boxes: distances of points, by branch and bound, and the triangles
 /// that a ray crosses. The boxes have the axes along which most of the surface is flat, so that parts that stand at an
 /// angle are bounded as tightly as others. Keeps a copy of its triangles.
 class SurfaceTree {

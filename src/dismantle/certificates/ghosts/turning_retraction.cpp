@@ -205,8 +205,8 @@ class Turning {
       for (const auto& [their_radius, g] : theirs) {
         if (mine_radius * their_radius > 0 || f.end < g.begin || g.end < f.begin) continue;
         const Cylinder &shaft = mine_radius > 0 ? f : g, &bore = mine_radius > 0 ? g : f;
-        // Facets of slightly different radii are one cylinder here: those that overlap may be beside each other.
-        // Turning alone makes the depth at the start larger by no more than both sagittas.
+        // A cylinder may have facets of slightly different radii here, and the overlap may be one of facets that never
+        // meet. Turning increases the initial depth by at most both sagittas.
         const double most = depth_ + shaft.sagitta + bore.sagitta;
         double overlap = shaft.farthest - bore.nearest;
         if (overlap <= 0 || overlap > most + tolerance_) continue;
