@@ -43,8 +43,15 @@ class CertificateResponse {
   /// Adds the contacts that block a motion, or makes it up to these. @return false if the step ends
   bool make_blocked(const SlideTrial& trial, const ScrewMotion& motion, const CertificateSweep& found,
                     SlideState& state, StepResult& result);
-  /// Makes a motion up to a fraction of it, before its first contact. @return false if nothing of it is made
-  bool make_part(const ScrewMotion& motion, double fraction, double window, StepResult& result);
+  /// True if the set gets further on the straight way to its target, before the first contact there, than by a motion
+  /// along contacts.
+  bool is_better_straight(const SlideTrial& trial, const SlideState& state) const;
+  /// Makes that straight part. @return false if nothing of it is made
+  bool go_straight(SlideState& state, StepResult& result);
+  /// Makes a motion up to a fraction of it, before its first contact, or up to a half or a quarter of that. @param
+  /// is_certain false if that part is to be swept: where it is not known to be free, or the motion is a rotation, whose
+  /// parts do not end on the chords that were swept. @return false if nothing of it is made
+  bool make_part(const ScrewMotion& motion, double fraction, bool is_certain, StepResult& result);
   /// Time after the first contact in which others are found, as a fraction of the trial's motion.
   double contact_window(const SlideTrial& trial) const;
   /// True if contacts that let the set hardly move are to be found again: the first times since it did move, then ever

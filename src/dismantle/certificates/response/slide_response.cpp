@@ -28,6 +28,10 @@ constexpr double kTiltShare = 0.1;
 constexpr double kNoRotation = 1e3;
 /// Contacts that let the set hardly move are found again this many times in a row, then ever more rarely.
 constexpr unsigned kAlwaysSearchAgain = 4;
+/// The set goes on towards its target as far as nothing blocks it, not along contacts, where that brings it further by
+/// this many tolerances. Contacts ahead may leave less room than there is: where one of them was found on an edge, the
+/// half-space of its axis cuts off what is free beside it.
+constexpr double kStraightGain = 1;
 /// Upper bound of how far the second-order part of a twist may move a point, as a share of the tolerance.
 constexpr double kBendShare = 0.3;
 /// A part of a motion up to its first contact that is blocked itself is halved this many times.
@@ -55,6 +59,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       break;
     }
     const SlideTrial trial = choose_trial(state);
+    if (is_better_straight(trial, state) && go_straight(state, result)) continue;
     if (!state.contacts_here && (trial.travel < rest || trial.creeping) && search_again()) {
       // Among many pairs, one that was left behind may be what holds the set.
       contacts_.drop_pairs();
@@ -70,7 +75,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
     if (undecided_) {  // the next step goes on where this one ended
       // A shorter motion is decided sooner.
       reach_ = std::max(kMinTry * tolerance, 2 * (found.complete ? found.toi : 0) * trial.travel);
-      if (found.complete) make_part(motion, found.toi, kContactWindow, result);
+      if (found.complete) make_part(motion, found.toi, motion.deviation == 0, result);
       keeps_axes_ = state.axes_chosen;
       break;
     }
@@ -116,12 +121,36 @@ CertificateResponse::SlideTrial CertificateResponse::choose_trial(SlideState& st
   }
   const Twist twist = bent_little(allowed);
   const bool creeping = twist.bounded && travel_of(allowed) < kCreepShare * travel_of(tried);
-  return {twist, travel_of(twist), creeping, twist.bounded || !whole ? sweeper_.motion_to(twisted(twist)) : to_target};
+  const auto product = [&](const Twist& a, const Twist& b) {
+    return dot(a.velocity, b.velocity) + characteristic_length * characteristic_length * dot(a.rotation, b.rotation);
+  };
+  return {twist, travel_of(twist), product(twist, wanted) / product(wanted, wanted), creeping,
+          twist.bounded || !whole ? sweeper_.motion_to(twisted(twist)) : to_target};
+}
+
+bool CertificateResponse::is_better_straight(const SlideTrial& trial, const SlideState& state) const {
+  if (!state.straight) return false;
+  const double gain = state.straight->share - trial.share;
+  return gain * sweeper_.motion_to(state.target).path_length > kStraightGain * sweeper_.tolerance();
+}
+
+bool CertificateResponse::go_straight(SlideState& state, StepResult& result) {
+  const SlideState::Straight part = *std::exchange(state.straight, {});
+  const bool was_undecided = undecided_;
+  ++state.tries;
+  if (!make_part(part.motion, part.fraction, part.is_certain, result)) {
+    undecided_ = was_undecided;  // the motion along contacts is tried in its place
+    return false;
+  }
+  state.axes_chosen = state.on_course = state.contacts_here = false;
+  hardly_moved_ = 0;
+  return true;
 }
 
 bool CertificateResponse::make_free(const SlideTrial& trial, const ScrewMotion& motion, SlideState& state,
                                     StepResult& result) {
   advance(motion, 1, result);
+  state.straight.reset();
   const bool was_on_course = std::exchange(state.on_course, !trial.twist.bounded);
   // Motions along one screw are reported as one.
   if (was_on_course && state.on_course) result.poses.erase(result.poses.end() - 2);
@@ -133,7 +162,6 @@ bool CertificateResponse::make_free(const SlideTrial& trial, const ScrewMotion& 
 
 bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotion& motion,
                                        const CertificateSweep& found, SlideState& state, StepResult& result) {
-  const double window = contact_window(trial);
   bool news = false;
   double fraction = found.toi;
   for (const SweepContact& pair : found.blocked) {
@@ -141,6 +169,10 @@ bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotio
     fraction = std::min(fraction, contacts_.fraction_within_reserve(pair));
   }
   for (const BlockedFit& fit : found.fits) news |= contacts_.add_fit(fit);
+  if (!trial.twist.bounded && found.fits.empty()) {
+    const double before = found.toi - contacts_.reserve() / trial.travel;
+    state.straight = {motion, before, before * trial.share, found.complete && motion.deviation == 0};
+  }
   if (news) return true;
   if (!found.fits.empty()) {
     state.budget = SweepBudget::Bounded;
@@ -154,19 +186,19 @@ bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotio
     return false;
   }
   reach_ = std::max(kMinTry * sweeper_.tolerance(), 2 * found.toi * trial.travel);
-  if (!make_part(motion, fraction, window, result)) return false;
+  state.straight.reset();
+  if (!make_part(motion, fraction, motion.deviation == 0, result)) return false;
   state.axes_chosen = state.on_course = state.contacts_here = false;
   if (!trial.creeping) hardly_moved_ = 0;
   return true;
 }
 
-bool CertificateResponse::make_part(const ScrewMotion& motion, double fraction, double window, StepResult& result) {
-  // The pose at the end of a part of a rotation is not on the chords that were swept.
+bool CertificateResponse::make_part(const ScrewMotion& motion, double fraction, bool is_certain, StepResult& result) {
   for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, fraction /= 2) {
     if (fraction * motion.path_length < kRestShare * sweeper_.tolerance()) return false;
-    const ScrewMotion part = motion.deviation == 0 ? motion : sweeper_.motion_to(motion.at(fraction));
-    if (motion.deviation > 0 && !sweep(part, window, SweepBudget::Bounded, result).free) continue;
-    advance(part, motion.deviation == 0 ? fraction : 1, result);
+    const ScrewMotion part = is_certain ? motion : sweeper_.motion_to(motion.at(fraction));
+    if (!is_certain && !sweep(part, kContactWindow, SweepBudget::Bounded, result).free) continue;
+    advance(part, is_certain ? fraction : 1, result);
     return true;
   }
   return false;

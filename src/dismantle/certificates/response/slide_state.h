@@ -3,6 +3,8 @@
 
 #include "dismantle/certificates/response/certificate_response.h"
 
+#include <optional>
+
 /// Declarations that the sources of CertificateResponse share.
 namespace dismantle {
 
@@ -15,11 +17,21 @@ inline constexpr double kTryGrowth = 4;
 
 /// The state of one step of response Slide.
 struct CertificateResponse::SlideState {
+  /// The part before its first contact of a motion to the target.
+  struct Straight {
+    ScrewMotion motion;       ///< That was tried.
+    double fraction = 0;      ///< Of the motion, up to the first contact found.
+    double share = 0;         ///< Of what is wanted.
+    bool is_certain = false;  ///< It is free: the sweep found all contacts, and the motion is linear.
+  };
+
   Pose target;                 ///< Of the step.
   int tries = 0;               ///< Sweeps so far, apart from free ones of an unbounded motion.
   bool axes_chosen = false;    ///< The contacts' axes are those of the motion that is wanted from the present pose.
   bool contacts_here = false;  ///< All contacts were found at the present pose.
   bool on_course = false;      ///< The last motion was on the screw to the target.
+  std::optional<Straight>
+      straight;  ///< From the present pose, where the motion to the target was tried and is blocked.
   SweepBudget budget = SweepBudget::WholeCylinders;  ///< Of the next sweep.
 };
 
@@ -27,6 +39,7 @@ struct CertificateResponse::SlideState {
 struct CertificateResponse::SlideTrial {
   SlideContacts::Twist twist;  ///< That the contacts allow.
   double travel = 0;           ///< Path length of the twist [mm].
+  double share = 0;            ///< By how much it brings the set to the target, as a share of what is wanted.
   bool creeping = false;       ///< The contacts let the set hardly move.
   ScrewMotion motion;          ///< To be tried.
 };
