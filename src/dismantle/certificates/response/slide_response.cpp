@@ -29,9 +29,9 @@ constexpr double kNoRotation = 1e3;
 /// Contacts that let the set hardly move are found again this many times in a row, then ever more rarely.
 constexpr unsigned kAlwaysSearchAgain = 4;
 /// The set goes on towards its target as far as nothing blocks it, not along contacts, where that brings it further by
-/// this many tolerances. Contacts ahead may leave less room than there is: where one of them was found on an edge, the
-/// half-space of its axis cuts off what is free beside it.
-constexpr double kStraightGain = 1;
+/// this share of the tolerance. Contacts ahead may leave less room than there is: where one of them was found on an
+/// edge, the half-space of its axis cuts off what is free beside it.
+constexpr double kStraightGain = 0.5;
 /// Upper bound of how far the second-order part of a twist may move a point, as a share of the tolerance.
 constexpr double kBendShare = 0.3;
 /// A part of a motion up to its first contact that is blocked itself is halved this many times.
@@ -170,8 +170,9 @@ bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotio
   }
   for (const BlockedFit& fit : found.fits) news |= contacts_.add_fit(fit);
   if (!trial.twist.bounded && found.fits.empty()) {
-    const double before = found.toi - contacts_.reserve() / trial.travel;
-    state.straight = {motion, before, before * trial.share, found.complete && motion.deviation == 0};
+    const double before = found.toi - kBackoffShare * sweeper_.tolerance() / motion.path_length;
+    const double share = trial.share * motion.path_length / trial.motion.path_length;
+    state.straight = {motion, before, before * share, found.complete && motion.deviation == 0};
   }
   if (news) return true;
   if (!found.fits.empty()) {
