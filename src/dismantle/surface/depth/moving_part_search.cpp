@@ -64,7 +64,7 @@ bool clear_of(const SurfaceTree& surface, const PartHull& hull, double gap, Vec3
 }  // namespace
 
 bool MovingPartSearch::is_deep(Vec3 own, Vec3 point) const {
-  return is_deep(own, point, solid_.surface().distance(point).distance);
+  return is_deep(own, point, solid_.surface().distance(point, 0, rule_.limit).distance);
 }
 
 bool MovingPartSearch::is_deep(Vec3 own, Vec3 point, double distance) const {
@@ -72,9 +72,10 @@ bool MovingPartSearch::is_deep(Vec3 own, Vec3 point, double distance) const {
   if (distance <= rule_.limit) {
     const SurfaceTree* thick = rule_.thick_faces();
     if (thick && thick->distance(point, 0, rule_.limit).distance <= rule_.limit) return false;
-    if (solid_.surface().distance(own).distance <= rule_.limit) return false;
+    if (solid_.surface().distance(own, 0, rule_.limit).distance <= rule_.limit) return false;
     const SolidShape* hole = rule_.hole;
-    if (hole && (hole->surface().distance(point).distance <= rule_.limit || hole->winding().inside(point)))
+    if (hole &&
+        (hole->surface().distance(point, 0, rule_.limit).distance <= rule_.limit || hole->winding().inside(point)))
       return false;
   }
   return solid_.winding().inside(point);
@@ -85,7 +86,7 @@ bool MovingPartSearch::is_near(const MovingPart& part) const {
   const Vec3 center = (part.own[0] + part.own[1] + part.own[2]) / 3;
   double radius = 0;
   for (int i = 0; i < 3; ++i) radius = std::max(radius, length(part.own[i] - center));
-  const MeshDistance nearest = solid_.surface().distance(center);
+  const MeshDistance nearest = solid_.surface().distance(center, 0, std::max(rule_.limit, radius));
   if (nearest.distance + radius <= rule_.limit) return true;
   const auto near = [&](Vec3 p) { return solid_.surface().distance_to_face(p, nearest.face) <= rule_.limit; };
   if (std::all_of(part.own.corner, part.own.corner + 3, near)) return true;
@@ -146,7 +147,7 @@ MovingPartSearch::Result MovingPartSearch::find(const MovingPart& whole, std::si
     for (int i = 0; i < 3; ++i) {
       const Vec3 corner = ball.middle[i];
       if (nearest.distance + length(corner - ball.center) <= rule_.far_limit) continue;
-      const double distance = solid_.surface().distance(corner, nearest.face).distance;
+      const double distance = solid_.surface().distance(corner, nearest.face, rule_.limit).distance;
       if (is_deep(part.own[i], corner, distance)) return {TimedPoint{time, part.face, part.own[i]}, true};
     }
     divide(part, nearest.face, parts);

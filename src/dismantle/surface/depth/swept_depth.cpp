@@ -14,6 +14,8 @@ namespace {
 /// The first part of a motion that is searched, in resolutions of time, and by how much each part ends later than the
 /// one before: what lies behind a contact costs most.
 constexpr double kFirstPart = 16, kPartGrowth = 8;
+/// Faces that are sampled at each time, from everywhere on the surface, before more are sampled where one may be deep.
+constexpr std::size_t kEvenSamples[] = {60, 400};
 /// Times of a known deep point are found to within this share of the resolution.
 constexpr double kTimeShare = 0.25;
 /// An interval is given up, and a shorter one searched, after this share of the pieces, but not before so many.
@@ -41,16 +43,13 @@ class PairSearch {
         max_pieces_(max_pieces),
         keep_going_(keep_going) {}
 
-  /// A point that is too deep, at the time at which it becomes so; found by sampling ever later times.
+  /// A point that is too deep, at the time at which it becomes so; found by sampling ever later times. What blocks a
+  /// long motion mostly is deep in many places: a few samples at all times come before many at some.
   std::optional<DeepPoint> sampled() {
-    for (double time = kFirstPart * resolution_;; time *= 2) {
-      for (const int of : {0, 1})
-        if (const auto found = searches_[of].sample(std::min(until_, time), max_pieces_)) {
-          know(*found, of);
-          return searches_[of].deep_point(*known_, of == 0);
-        }
-      if (time >= until_) return std::nullopt;
-    }
+    for (const std::size_t faces : kEvenSamples)
+      if (auto found = sampled([&](SweptSearch& search, double time) { return search.sample_evenly(time, faces); }))
+        return found;
+    return sampled([&](SweptSearch& search, double time) { return search.sample(time, max_pieces_); });
   }
 
   /// Number of points and pieces examined.
@@ -98,6 +97,19 @@ class PairSearch {
   }
 
  private:
+  /// A point that sample(search, time) finds at ever later times.
+  template <class Sample>
+  std::optional<DeepPoint> sampled(const Sample& sample) {
+    for (double time = kFirstPart * resolution_;; time *= 2) {
+      for (const int of : {0, 1})
+        if (const auto found = sample(searches_[of], std::min(until_, time))) {
+          know(*found, of);
+          return searches_[of].deep_point(*known_, of == 0);
+        }
+      if (time >= until_) return std::nullopt;
+    }
+  }
+
   /// True if what is known leaves nothing to search.
   bool is_decided(DeepSearch search_for) const {
     if (known_ && search_for == DeepSearch::Any) return true;

@@ -97,15 +97,34 @@ std::optional<TimedPoint> SweptSearch::sample(double time, std::size_t max_piece
     const std::uint32_t face = bvh.leaf_triangle[node];
     const Triangle& t = own.triangle(face);
     ++faces;
-    for (const Vec3 p : {(t[0] + t[1] + t[2]) / 3, t[0]}) {
-      ++samples_;
-      const Vec3 place = now * p;
-      const MeshDistance nearest = other_.surface().distance(place, last);
-      last = nearest.face;
-      if (parts_.is_deep(p, place, nearest.distance)) return TimedPoint{time, face, p};
-    }
+    for (const Vec3 p : {(t[0] + t[1] + t[2]) / 3, t[0]})
+      if (is_deep_sample(p, now * p, last)) return TimedPoint{time, face, p};
   }
   return std::nullopt;
+}
+
+std::optional<TimedPoint> SweptSearch::sample_evenly(double time, std::size_t faces) {
+  if (!is_limited_) return std::nullopt;
+  const InterpolatedTransform& now = at(time).now;
+  const Bvh& bvh = own_.surface().bvh();
+  const std::size_t stride = (bvh.leaf_count() + faces - 1) / faces;
+  std::uint32_t last = 0;
+  for (std::size_t leaf = stride / 2; leaf < bvh.leaf_count(); leaf += stride) {
+    const std::uint32_t face = bvh.leaf_triangle[leaf];
+    const Triangle& t = own_.surface().triangle(face);
+    const Vec3 own = (t[0] + t[1] + t[2]) / 3, place = now * own;
+    if (!overlaps(other_.surface().bounds(), {place, place})) continue;
+    if (is_deep_sample(own, place, last)) return TimedPoint{time, face, own};
+  }
+  return std::nullopt;
+}
+
+/// True if a sampled point is too deep. @param last the face from which its distance is searched, then the nearest one
+bool SweptSearch::is_deep_sample(Vec3 own, Vec3 place, std::uint32_t& last) {
+  ++samples_;
+  const MeshDistance nearest = other_.surface().distance(place, last, rule_.limit);
+  last = nearest.face;
+  return parts_.is_deep(own, place, nearest.distance);
 }
 
 SweptSearch::Result SweptSearch::find(double from, double to, std::size_t& pieces, std::size_t max_pieces) {

@@ -61,6 +61,8 @@ class SweptSearch {
   /// A sampled point that is too deep at a time. @param max_pieces that the whole search may examine; bounds the
   /// number of samples
   std::optional<TimedPoint> sample(double time, std::size_t max_pieces);
+  /// The same of the middles of about `faces` faces from everywhere on the surface.
+  std::optional<TimedPoint> sample_evenly(double time, std::size_t faces);
   /// Some point that is too deep in [from, to]; the pieces are counted.
   Result find(double from, double to, std::size_t& pieces, std::size_t max_pieces);
   /// True if nothing gets too deep in [from, to], nearly everywhere for reasons that are known; false says nothing.
@@ -73,6 +75,7 @@ class SweptSearch {
  private:
   template <class Visit>
   Result search(double from, double to, const Visit& in_face);
+  bool is_deep_sample(Vec3 own, Vec3 place, std::uint32_t& last);
   Result find_in_known(const MovingPart& face, std::size_t& pieces, std::size_t max_pieces);
   void keep(const MovingPart& face, std::vector<ShallowPart> parts);
   MovingPart part(const Triangle& own, std::uint32_t face, double from, double to);
