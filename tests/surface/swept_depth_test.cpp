@@ -266,6 +266,18 @@ TEST(FirstDeeper, DecidesTheSameForAnyPointAsForTheFirst) {
   EXPECT_GT(free, 5);
 }
 
+TEST(FirstDeeper, FindsAnyPointOfAFineSurfaceWithFewSamples) {
+  // A fine rod in a long bore that ends at a lid; on the way there, it is nearly as deep in the wall as allowed.
+  const Solid rod(scenes::tube(5.0145, 0, -5, 5, 200, 40));
+  const Solid bore(scenes::joined(scenes::tube(6, 5.005, -5, 100, 200, 40), scenes::box({-6, -6, 100}, {6, 6, 300})));
+  std::size_t cost = 0;
+  const auto found = first_deeper({&rod.shape, &bore.shape, {}, moved({0, 0, 800})}, {0.01}, 1e-5, kMaxSweptPieces, {},
+                                  DeepSearch::Any, &cost);
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->point.z, 100);
+  EXPECT_LT(cost, 3000u) << "points";
+}
+
 TEST(FirstDeeper, AgreesWithSamplesOfRandomSolidsClosedCrackedAndOpen) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> u(-1, 1);

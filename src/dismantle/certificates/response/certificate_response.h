@@ -44,8 +44,8 @@ class CertificateResponse {
   bool make_blocked(const SlideTrial& trial, const ScrewMotion& motion, const CertificateSweep& found,
                     SlideState& state, StepResult& result);
   /// True if the set gets further on the straight way to its target, before the first contact there, than by a motion
-  /// along contacts.
-  bool is_better_straight(const SlideTrial& trial, const SlideState& state) const;
+  /// along contacts that makes this share of what is wanted.
+  bool is_better_straight(double share, const SlideState& state) const;
   /// Makes that straight part. @return false if nothing of it is made
   bool go_straight(SlideState& state, StepResult& result);
   /// Makes a motion up to a fraction of it, before its first contact, or up to a half or a quarter of that. @param

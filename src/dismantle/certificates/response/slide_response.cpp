@@ -59,7 +59,7 @@ void CertificateResponse::slide(const Pose& target, StepResult& result) {
       break;
     }
     const SlideTrial trial = choose_trial(state);
-    if (is_better_straight(trial, state) && go_straight(state, result)) continue;
+    if (is_better_straight(trial.share, state) && go_straight(state, result)) continue;
     if (!state.contacts_here && (trial.travel < rest || trial.creeping) && search_again()) {
       // Among many pairs, one that was left behind may be what holds the set.
       contacts_.drop_pairs();
@@ -128,9 +128,9 @@ CertificateResponse::SlideTrial CertificateResponse::choose_trial(SlideState& st
           twist.bounded || !whole ? sweeper_.motion_to(twisted(twist)) : to_target};
 }
 
-bool CertificateResponse::is_better_straight(const SlideTrial& trial, const SlideState& state) const {
+bool CertificateResponse::is_better_straight(double share, const SlideState& state) const {
   if (!state.straight) return false;
-  const double gain = state.straight->share - trial.share;
+  const double gain = state.straight->share - share;
   return gain * sweeper_.motion_to(state.target).path_length > kStraightGain * sweeper_.tolerance();
 }
 
@@ -187,6 +187,7 @@ bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotio
     return false;
   }
   reach_ = std::max(kMinTry * sweeper_.tolerance(), 2 * found.toi * trial.travel);
+  if (is_better_straight(fraction * trial.share, state) && go_straight(state, result)) return true;
   state.straight.reset();
   if (!make_part(motion, fraction, motion.deviation == 0, result)) return false;
   state.axes_chosen = state.on_course = state.contacts_here = false;
