@@ -62,6 +62,43 @@ TEST_F(CliPlan, TreatsWhatBelongsTogetherAsOnePart) {
   EXPECT_EQ(run("check parts --together '*'").out.find("back "), std::string::npos);
 }
 
+/// A base, three housings on it, and in these 13 bearings and 13 shafts, all in one row: one OBJ file each, in the
+/// frame of the product, with numbers for names. Equal parts are turned about their axes by different angles.
+void write_shafts(const fs::path& folder) {
+  fs::create_directories(folder);
+  int number = 0;
+  const auto write = [&](const TriangleMesh& mesh) {
+    const std::string name = std::to_string(++number);
+    ASSERT_TRUE(write_assembly(folder / (name + ".obj"), scenes::assembly({scenes::component(name, mesh)})).ok());
+  };
+  write(scenes::box({-20, -20, -10}, {20 * 2 * 13, 20, 0}));
+  double x = 0;
+  for (const int places : {5, 4, 4}) {
+    std::vector<TriangleMesh> housing;
+    for (int k = 0; k < places; ++k, x += 40) {
+      const auto turned = [&](const TriangleMesh& mesh, double angle) {
+        return scenes::moved(mesh, {{x, 0, 0}, quat_about({0, 0, 1}, angle)});
+      };
+      housing.push_back(turned(scenes::bored(scenes::square(20), 8.05, 0, 15), 0));
+      write(turned(scenes::bored(scenes::circle(8), 5, 0, 10), 0.1 * x));
+      write(turned(scenes::tube(4.95, 0, 0, 60, 48), 0.07 * x));
+    }
+    write(scenes::joined(housing));
+  }
+}
+
+TEST_F(CliPlan, GroupsEqualShaftsAndBearingsOfMeshesInFewSteps) {
+  write_shafts(in("shafts"));
+  ASSERT_EQ(run("plan shafts -o shafts.path.json").exit_code, 0);
+  EXPECT_EQ(run("audit shafts shafts.path.json").exit_code, 0);
+  ASSERT_EQ(run("export shafts shafts.path.json -o shafts-instructions.html").exit_code, 0);
+  const std::string page = read_all(in("shafts-instructions.html"));
+  const std::size_t at = page.find(" steps, 30 components of 5 kinds; 1 base part");
+  ASSERT_NE(at, std::string::npos) << page.substr(page.find(" components of ") - 20, 60);
+  EXPECT_LE(std::stoi(page.substr(page.rfind('>', at) + 1)), 10);
+  EXPECT_NE(page.find("Remove 13 \u00d7 "), std::string::npos);
+}
+
 TEST_F(CliPlan, SaysHowScrewsAreTurnedAndWhatTheyHold) {
   ASSERT_TRUE(write_assembly(in("case.glb"), scenes::covered_case()).ok());
   const Outcome o = run("plan case.glb -o case.path.json --json");
