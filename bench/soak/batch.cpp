@@ -14,8 +14,9 @@ namespace dismantle::soak {
 namespace {
 
 /// A motion counts as free where it needs no more than this share of the tolerance: ghost surfaces leave 0.62 of the
-/// tolerance where two faces touch. The engine must make kStuckProgress of it.
-constexpr double kStuckAllowance = 0.6, kStuckProgress = 0.9;
+/// tolerance where two faces touch, and the audit knows depths to a fifth of what it allows. The engine must make
+/// kStuckProgress of it.
+constexpr double kStuckAllowance = 0.5, kStuckProgress = 0.9;
 /// Steps that a free straight motion may take, of which all but the last end early.
 constexpr int kStuckSteps = 300;
 /// Width of a bin of times, as a factor.

@@ -50,6 +50,8 @@ class SlideContacts {
   /// @param characteristic_length weighs rotations against translations [mm]
   Twist nearest(const Twist& wanted, double characteristic_length);
 
+  /// The gap that is kept at the end of a twist [mm].
+  double reserve() const;
   /// The fraction of a motion on which `pair` is blocked that should be made, so that the reserve is kept if it can.
   double fraction_within_reserve(const SweepContact& pair) const;
 
@@ -79,8 +81,6 @@ class SlideContacts {
   double gap_of(const SweepContact& pair) const;
   /// The triangles of these surfaces of the pair's components.
   ContactTriangles triangles(const SweepContact& pair, SurfacePair surfaces) const;
-  /// The gap that is kept at the end of a twist [mm].
-  double reserve() const;
   /// Adds the rows of nearest_twist() by which the pair bounds the twist.
   void bound(const PairGeometry& contact, double characteristic_length, std::vector<HalfSpace>& bounds) const;
 

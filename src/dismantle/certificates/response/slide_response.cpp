@@ -170,7 +170,8 @@ bool CertificateResponse::make_blocked(const SlideTrial& trial, const ScrewMotio
   }
   for (const BlockedFit& fit : found.fits) news |= contacts_.add_fit(fit);
   if (!trial.twist.bounded && found.fits.empty()) {
-    const double before = found.toi - kBackoffShare * sweeper_.tolerance() / motion.path_length;
+    // With the reserve used up, the next rotation would be held at once.
+    const double before = found.toi - contacts_.reserve() / motion.path_length;
     const double share = trial.share * motion.path_length / trial.motion.path_length;
     state.straight = {motion, before, before * share, found.complete && motion.deviation == 0};
   }
