@@ -71,7 +71,7 @@ void write_shafts(const fs::path& folder) {
     const std::string name = std::to_string(++number);
     ASSERT_TRUE(write_assembly(folder / (name + ".obj"), scenes::assembly({scenes::component(name, mesh)})).ok());
   };
-  write(scenes::box({-20, -20, -10}, {20 * 2 * 13, 20, 0}));
+  write(scenes::box({-20, -20, -10}, {40 * 13, 20, 0}));
   double x = 0;
   for (const int places : {5, 4, 4}) {
     std::vector<TriangleMesh> housing;

@@ -48,9 +48,10 @@ class CertificateResponse {
   bool is_better_straight(double share, const SlideState& state) const;
   /// Makes that straight part. @return false if nothing of it is made
   bool go_straight(SlideState& state, StepResult& result);
-  /// Makes a motion up to a fraction of it, before its first contact, or up to a half or a quarter of that. @param
-  /// is_certain false if that part is to be swept: where it is not known to be free, or the motion is a rotation, whose
-  /// parts do not end on the chords that were swept. @return false if nothing of it is made
+  /// Makes a motion up to a fraction of it, before its first contact, or up to a half or a quarter of that.
+  /// @param is_certain that part is known to be free; if not, it is swept before it is made. Parts of rotations never
+  /// are: they do not end on the chords that were swept
+  /// @return false if nothing of it is made
   bool make_part(const ScrewMotion& motion, double fraction, bool is_certain, StepResult& result);
   /// Time after the first contact in which others are found, as a fraction of the trial's motion.
   double contact_window(const SlideTrial& trial) const;

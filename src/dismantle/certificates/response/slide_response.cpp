@@ -29,8 +29,8 @@ constexpr double kNoRotation = 1e3;
 /// Contacts that let the set hardly move are found again this many times in a row, then ever more rarely.
 constexpr unsigned kAlwaysSearchAgain = 4;
 /// The set goes on towards its target as far as nothing blocks it, not along contacts, where that brings it further by
-/// this share of the tolerance. Contacts ahead may leave less room than there is: where one of them was found on an
-/// edge, the half-space of its axis cuts off what is free beside it.
+/// this share of the tolerance. Contacts ahead may leave less room than there is, as each of them is taken for a
+/// half-space.
 constexpr double kStraightGain = 0.5;
 /// Upper bound of how far the second-order part of a twist may move a point, as a share of the tolerance.
 constexpr double kBendShare = 0.3;

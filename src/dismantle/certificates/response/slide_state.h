@@ -30,8 +30,8 @@ struct CertificateResponse::SlideState {
   bool axes_chosen = false;    ///< The contacts' axes are those of the motion that is wanted from the present pose.
   bool contacts_here = false;  ///< All contacts were found at the present pose.
   bool on_course = false;      ///< The last motion was on the screw to the target.
-  std::optional<Straight>
-      straight;  ///< From the present pose, where the motion to the target was tried and is blocked.
+  /// From the present pose; none where the motion to the target was not tried there, or was free.
+  std::optional<Straight> straight;
   SweepBudget budget = SweepBudget::WholeCylinders;  ///< Of the next sweep.
 };
 
