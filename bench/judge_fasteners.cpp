@@ -69,7 +69,7 @@ bool near(double a, double b) {
 }
 
 void judge(const Assembly& assembly, const std::vector<Row>& rows, FastenerEvidence evidence, Score& score) {
-  const std::vector<std::optional<Fastener>> found = find_fasteners(assembly, evidence);
+  const std::vector<std::optional<Fastener>> found = find_fasteners(assembly, {}, evidence);
   const std::vector<ComponentId> firsts = first_of_shape(assembly);
   std::map<ComponentId, const Row*> expected;
   for (const Row& row : rows) {
@@ -140,7 +140,7 @@ int list(int count, char** files) {
     const std::vector<ComponentId> firsts = first_of_shape(*assembly);
     std::map<ComponentId, std::size_t> counts;
     for (const ComponentId c : firsts) ++counts[c];
-    const auto with = find_fasteners(*assembly), without = find_fasteners(*assembly, FastenerEvidence::ShapeOnly);
+    const auto with = find_fasteners(*assembly), without = find_fasteners(*assembly, {}, FastenerEvidence::ShapeOnly);
     std::printf("## %s\n", files[i]);
     for (const auto& [c, number] : counts) {
       const auto text = [](const std::optional<Fastener>& f) {

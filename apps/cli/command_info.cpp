@@ -91,9 +91,9 @@ void print_split(const Assembly& assembly) {
              count_text(split.products, whole), piece, split.components, piece, whole);
 }
 
-Json fasteners_json(const Assembly& a) {
+Json fasteners_json(const Assembly& a, const Executor& executor) {
   Json list = Json::array();
-  for (const CountedFastener& counted : counted_fasteners(find_fasteners(a))) {
+  for (const CountedFastener& counted : counted_fasteners(find_fasteners(a, executor))) {
     Json entry = fastener_json(counted.fastener), names = Json::array();
     for (const ComponentId c : counted.components) names.push_back(a[c].name);
     entry["count"] = counted.components.size();
@@ -103,8 +103,8 @@ Json fasteners_json(const Assembly& a) {
   return list;
 }
 
-void print_fasteners(const Assembly& a) {
-  const std::vector<CountedFastener> list = counted_fasteners(find_fasteners(a));
+void print_fasteners(const Assembly& a, const Executor& executor) {
+  const std::vector<CountedFastener> list = counted_fasteners(find_fasteners(a, executor));
   if (list.empty()) return;
   std::size_t width = 0;  // of names that a tool follows
   for (const CountedFastener& f : list)
@@ -119,7 +119,7 @@ void print_fasteners(const Assembly& a) {
   }
 }
 
-Json to_json(const Assembly& a) {
+Json to_json(const Assembly& a, const Executor& executor) {
   const Aabb box = assembled_bounds(a);
   const std::vector<ComponentId> duplicate_of = originals(a), shapes = first_of_shape(a);
   Json components = Json::array();
@@ -155,11 +155,11 @@ Json to_json(const Assembly& a) {
             {"deflection_is_estimated", a.deflection_is_estimated},
             {"simplification_error_mm", a.simplification_error},
             {"default_tolerance_mm", default_tolerance(a)}}},
-          {"fasteners", fasteners_json(a)},
+          {"fasteners", fasteners_json(a, executor)},
           {"components", components}};
 }
 
-void print_text(const Assembly& a) {
+void print_text(const Assembly& a, const Executor& executor) {
   const Aabb box = assembled_bounds(a);
   const Vec3 size = box.size();
   const std::vector<ComponentId> shapes = first_of_shape(a);
@@ -185,7 +185,7 @@ void print_text(const Assembly& a) {
       fmt::print("{:<{}}  identical and coincident with {}; probably placed twice (--drop-duplicates leaves it out)\n",
                  "", width, a[duplicate_of[i]].name);
   }
-  print_fasteners(a);
+  print_fasteners(a, executor);
 }
 
 }  // namespace
@@ -200,9 +200,10 @@ void add_info_command(CLI::App& app, ExitCode& exit_code) {
     if (!assembly) {
       exit_code = report(assembly.error());
     } else if (options->json) {
-      fmt::print("{}\n", to_json(*assembly).dump(2, ' ', false, Json::error_handler_t::replace));
+      fmt::print("{}\n",
+                 to_json(*assembly, make_executor(*options)).dump(2, ' ', false, Json::error_handler_t::replace));
     } else {
-      print_text(*assembly);
+      print_text(*assembly, make_executor(*options));
     }
   });
 }

@@ -20,7 +20,8 @@ std::vector<std::string> found_in(const std::vector<std::pair<std::string, Trian
   std::vector<Component> components;
   for (const auto& [name, mesh] : parts) components.push_back(scenes::component(name, mesh));
   std::vector<std::string> texts;
-  for (const auto& f : find_fasteners(scenes::assembly(std::move(components)), evidence)) texts.push_back(text_of(f));
+  for (const auto& f : find_fasteners(scenes::assembly(std::move(components)), {}, evidence))
+    texts.push_back(text_of(f));
   return texts;
 }
 

@@ -31,17 +31,30 @@ double ray_angle(std::size_t k) {
   return (static_cast<double>(k) + kRayOffset) * kTurn / static_cast<double>(kSectionRays);
 }
 
+/// The directions of the rays across the axis.
+struct RayDirections {
+  RayDirections() {
+    for (std::size_t k = 0; k < kSectionRays; ++k) {
+      x[k] = std::cos(ray_angle(k));
+      y[k] = std::sin(ray_angle(k));
+    }
+  }
+  std::array<double, kSectionRays> x, y;
+};
+
 /// The point of a segment at a position along the axis.
 Vec3 at_plane(Vec3 a, double along_a, Vec3 b, double along_b, double along) {
   return a + ((along - along_a) / (along_b - along_a)) * (b - a);
 }
 
+/// Where the rays of a section cross the surface.
 struct Crossings {
-  std::vector<double> of_ray[kSectionRays];
+  std::array<std::uint32_t, kSectionRays> count{};
+  std::array<double, kSectionRays> nearest{}, farthest{};  ///< From the axis [mm]; 0 without crossings.
 };
 
 /// Adds the crossings of a segment in the plane across the axis.
-void add_segment(const AxisFrame& frame, Vec3 p, Vec3 q, Crossings& crossings) {
+void add_segment(const AxisFrame& frame, const RayDirections& rays, Vec3 p, Vec3 q, Crossings& crossings) {
   const double px = dot(p - frame.point, frame.first), py = dot(p - frame.point, frame.second);
   const double qx = dot(q - frame.point, frame.first), qy = dot(q - frame.point, frame.second);
   const double step = kTurn / static_cast<double>(kSectionRays);
@@ -56,11 +69,14 @@ void add_segment(const AxisFrame& frame, Vec3 p, Vec3 q, Crossings& crossings) {
   for (std::int64_t k = first; (static_cast<double>(k) + kRayOffset) * step < to; ++k) {
     constexpr auto kCount = static_cast<std::int64_t>(kSectionRays);
     const auto ray = static_cast<std::size_t>(((k % kCount) + kCount) % kCount);
-    const double x = std::cos(ray_angle(ray)), y = std::sin(ray_angle(ray));
+    const double x = rays.x[ray], y = rays.y[ray];
     const double dp = x * py - y * px, dq = x * qy - y * qx;
     if (dp == dq) continue;
     const double t = dp / (dp - dq), radius = x * (px + t * (qx - px)) + y * (py + t * (qy - py));
-    if (radius > 0) crossings.of_ray[ray].push_back(radius);
+    if (!(radius > 0)) continue;
+    const bool is_first = crossings.count[ray]++ == 0;
+    crossings.nearest[ray] = is_first ? radius : std::min(crossings.nearest[ray], radius);
+    crossings.farthest[ray] = std::max(crossings.farthest[ray], radius);
   }
 }
 
@@ -118,6 +134,7 @@ std::vector<AxialSection> axial_sections(const TriangleMesh& mesh, const AxisFra
   const double begin = *low, step = (*high - *low) / static_cast<double>(count);
   std::vector<AxialSection> sections(count);
   std::vector<Crossings> crossings(count);
+  const RayDirections rays;
   const auto plane = [&](std::size_t i) { return begin + (static_cast<double>(i) + kPlaneOffset) * step; };
   for (const Face& f : mesh.faces) {
     double z[3];
@@ -133,18 +150,17 @@ std::vector<AxialSection> axial_sections(const TriangleMesh& mesh, const AxisFra
         if ((z[k] < at) == (z[next] < at)) continue;
         ends[found++] = at_plane(mesh.vertices[f.v[k]], z[k], mesh.vertices[f.v[next]], z[next], at);
       }
-      if (found == 2) add_segment(frame, ends[0], ends[1], crossings[i]);
+      if (found == 2) add_segment(frame, rays, ends[0], ends[1], crossings[i]);
     }
   }
   for (std::size_t i = 0; i < count; ++i) {
     AxialSection& section = sections[i];
     section.along = plane(i);
     for (std::size_t k = 0; k < kSectionRays; ++k) {
-      const std::vector<double>& radii = crossings[i].of_ray[k];
-      section.hits[k] = static_cast<std::uint8_t>(std::min<std::size_t>(radii.size(), 255));
-      if (radii.empty()) continue;
-      section.outer[k] = *std::max_element(radii.begin(), radii.end());
-      if (radii.size() % 2 == 0) section.hole[k] = *std::min_element(radii.begin(), radii.end());
+      const std::uint32_t hits = crossings[i].count[k];
+      section.hits[k] = static_cast<std::uint8_t>(std::min<std::uint32_t>(hits, 255));
+      section.outer[k] = crossings[i].farthest[k];
+      if (hits % 2 == 0) section.hole[k] = crossings[i].nearest[k];
     }
   }
   return sections;

@@ -137,6 +137,19 @@ std::optional<Fastener> judged(const std::vector<FastenerShape>& shapes, const F
   return std::nullopt;
 }
 
+/// The shapes that the meshes may be, in the frames of the meshes.
+using MeshShapes = std::unordered_map<const TriangleMesh*, std::vector<FastenerShape>>;
+
+MeshShapes shapes_of(const Assembly& assembly, const Executor& executor) {
+  MeshShapes shapes;
+  std::vector<MeshShapes::value_type*> meshes;
+  for (const Component& component : assembly.components)
+    if (const auto [at, is_new] = shapes.try_emplace(component.mesh.get()); is_new) meshes.push_back(&*at);
+  executor.for_each_heavy(meshes.size(),
+                          [&](std::size_t i) { meshes[i]->second = fastener_shapes(*meshes[i]->first); });
+  return shapes;
+}
+
 auto order_of(const Fastener& f) {
   // The thickness of nuts and washers, and the height of circlips, are no part of their designation.
   const bool has_length = f.kind != Kind::Nut && f.kind != Kind::Washer && f.kind != Kind::Circlip;
@@ -145,21 +158,20 @@ auto order_of(const Fastener& f) {
 
 }  // namespace
 
-std::vector<std::optional<Fastener>> find_fasteners(const Assembly& assembly, FastenerEvidence evidence) {
+std::vector<std::optional<Fastener>> find_fasteners(const Assembly& assembly, const Executor& executor,
+                                                    FastenerEvidence evidence) {
   const std::size_t common = common_beginning(assembly);
-  std::unordered_map<const TriangleMesh*, std::vector<FastenerShape>> shapes;  // their axes are in the mesh's frame
+  const MeshShapes shapes = shapes_of(assembly, executor);
   std::vector<std::optional<Fastener>> found;
   found.reserve(assembly.components.size());
-  for (std::uint32_t c = 0; c < assembly.components.size(); ++c) {
-    const Component& component = assembly.components[c];
-    const auto [at, is_new] = shapes.try_emplace(component.mesh.get());
-    if (is_new) at->second = fastener_shapes(*component.mesh);
+  for (const Component& component : assembly.components) {
+    const std::vector<FastenerShape>& own = shapes.at(component.mesh.get());
     const FastenerName name =
         evidence == FastenerEvidence::ShapeAndName
             ? read_fastener_name(std::string_view(component.name).substr(std::min(common, component.name.size())))
             : FastenerName{};
-    std::optional<Fastener> fastener = judged(at->second, name);
-    if (!fastener && at->second.empty()) fastener = named_only(*component.mesh, name);
+    std::optional<Fastener> fastener = judged(own, name);
+    if (!fastener && own.empty()) fastener = named_only(*component.mesh, name);
     found.push_back(fastener);
   }
   return found;

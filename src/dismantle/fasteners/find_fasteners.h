@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/assembly/assembly.h"
+#include "dismantle/exec/executor.h"
 #include "dismantle/fasteners/fastener.h"
 
 #include <cstdint>
@@ -19,7 +20,8 @@ enum class FastenerEvidence : std::uint8_t {
 /// The fasteners of an assembly: for each component what it is, nothing for what is none. A heuristic: shapes that are
 /// drawn without drive and thread are only recognised by their names. Equal shapes are read once; components of one
 /// shape may still differ by their names. Deterministic. Shape [component_count].
-std::vector<std::optional<Fastener>> find_fasteners(const Assembly& assembly,
+/// @param executor runs the shapes; the result does not depend on it
+std::vector<std::optional<Fastener>> find_fasteners(const Assembly& assembly, const Executor& executor = {},
                                                     FastenerEvidence evidence = FastenerEvidence::ShapeAndName);
 
 /// Equal fasteners of an assembly.

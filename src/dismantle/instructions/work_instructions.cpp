@@ -63,7 +63,7 @@ class Writer {
         options_(options),
         is_forward_(options.direction == PathDirection::Forward),
         steps_(work_steps(assembly, timeline, options.direction)),
-        fasteners_(find_fasteners(assembly)),
+        fasteners_(find_fasteners(assembly, options.engine.executor)),
         bill_(bill_of_materials(assembly, fasteners_)),
         names_(assembly, bill_, options.missing_glyphs),
         lines_(assembly.components.size()),

@@ -40,7 +40,7 @@ RigidGroups groups_of(const Assembly& assembly, const PlanOptions& options) {
 
 std::vector<Joint> joints_of(const Assembly& assembly, const PlanOptions& options) {
   if (options.fasteners == FastenerOrder::Ignored) return {};
-  return find_joints(assembly, find_fasteners(assembly), options.engine.executor);
+  return find_joints(assembly, find_fasteners(assembly, options.engine.executor), options.engine.executor);
 }
 
 /// Makes one plan of one assembly.

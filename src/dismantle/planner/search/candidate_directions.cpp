@@ -21,8 +21,9 @@ constexpr double kReachGrowth = 4;
 constexpr std::size_t kEnoughContacts = 64;
 /// Faces oppose each other if the cosine of their normals is below this.
 constexpr double kFacing = -0.95;
-/// Weight of pairs of faces that do not oppose each other.
+/// Weight of pairs of faces that do not oppose each other, and how many of them count: those of the largest faces.
 constexpr double kEdgeWeight = 1e-3;
+constexpr std::size_t kMostEdges = 256;
 /// A direction that opposes a normal by more than this [cosine] is blocked by it,
 constexpr double kAgainst = 1e-4;
 /// and one that opposes it by less is parallel to the face up to rounding.
@@ -42,6 +43,7 @@ ContactNormals gather(const Assembly& assembly, const CertificateEngine& engine,
                       const std::vector<NearFaces>& contacts) {
   DirectionClusters facing(Sense::Directed), other(Sense::Directed);
   std::map<ComponentId, DirectionClusters> facing_of;
+  std::vector<std::pair<double, NearFaces>> edges;
   ContactNormals result;
   for (const NearFaces& c : contacts) {
     const Vec3 moving = assembled_area(assembly[c.moving], c.face_moving);
@@ -54,10 +56,16 @@ ContactNormals gather(const Assembly& assembly, const CertificateEngine& engine,
       const Vec3 normal = area_moving > area_fixed ? -moving : fixed;
       facing.add(normal, weight);
       facing_of.try_emplace(c.fixed, Sense::Directed).first->second.add(normal, weight);
-    } else if (const Vec3 normal = engine.contact(c).normal; length(normal) > 0) {
-      other.add(normal, kEdgeWeight * weight);
+    } else {
+      edges.emplace_back(weight, c);
     }
   }
+  if (edges.size() > kMostEdges) {
+    std::stable_sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    edges.resize(kMostEdges);
+  }
+  for (const auto& [weight, c] : edges)
+    if (const Vec3 normal = engine.contact(c).normal; length(normal) > 0) other.add(normal, kEdgeWeight * weight);
   result.facing = facing.heaviest(4 * kMaxPaired);
   result.other = other.heaviest(kMaxPaired);
   for (const auto& [neighbour, normals] : facing_of) result.facing_of[neighbour] = normals.heaviest(kMaxPaired);
