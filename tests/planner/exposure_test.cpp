@@ -54,6 +54,26 @@ TEST_F(ExposureTest, GrowsWhileOthersAreRemoved) {
   EXPECT_TRUE(is_exposed("inside"));
 }
 
+TEST_F(ExposureTest, NamesWhatHadToBeGone) {
+  use(case_with_an_opening());
+  const ComponentId inside = *assembly_.find("inside"), lid = *assembly_.find("wall 5"),
+                    side = *assembly_.find("wall 2");
+  EXPECT_FALSE(exposure_->opened_by(inside, present_, ComponentSet(present_.universe())));
+  ComponentSet gone(present_.universe());
+  for (const ComponentId c : {*assembly_.find("wall 0"), side, lid}) {
+    present_.erase(c);
+    gone.insert(c);
+  }
+  const auto opened_by = exposure_->opened_by(inside, present_, gone);
+  ASSERT_TRUE(opened_by);
+  ASSERT_EQ(opened_by->size(), 1u) << "one wall is enough";
+  EXPECT_TRUE(opened_by->front() == lid || opened_by->front() == side);
+  // Whatever else of these is still there.
+  present_ = ComponentSet::all(present_.universe());
+  present_.erase(opened_by->front());
+  EXPECT_TRUE(is_exposed("inside"));
+}
+
 TEST_F(ExposureTest, IsTheSameInAnyOrientationAndSize) {
   for (const double scale : {1e-3, 1.0, 1e4}) {
     use(scenes::placed(case_with_an_opening(), {{5, 6, 7}, quat_about(normalized(Vec3{1, 2, 3}), 1.1)}, scale));

@@ -9,6 +9,7 @@
 #include "dismantle/planner/joint_relations.h"
 #include "dismantle/planner/joint_steps.h"
 #include "dismantle/planner/least_overlap.h"
+#include "dismantle/planner/order/plan_order.h"
 #include "dismantle/planner/plan_time.h"
 #include "dismantle/planner/search/curved_steps.h"
 #include "dismantle/planner/search/direction_choice.h"
@@ -38,9 +39,9 @@ RigidGroups groups_of(const Assembly& assembly, const PlanOptions& options) {
   return groups;
 }
 
-std::vector<Joint> joints_of(const Assembly& assembly, const PlanOptions& options) {
+std::vector<std::optional<Fastener>> fasteners_of(const Assembly& assembly, const PlanOptions& options) {
   if (options.fasteners == FastenerOrder::Ignored) return {};
-  return find_joints(assembly, find_fasteners(assembly, options.engine.executor), options.engine.executor);
+  return find_fasteners(assembly, options.engine.executor);
 }
 
 /// Makes one plan of one assembly.
@@ -55,16 +56,18 @@ class Planner {
         targets_(groups_.with_groups(options.targets)),
         fixed_(groups_.with_groups(options.fixed)),
         features_(shape_features(assembly, options.engine.executor)),
-        joints_(joints_of(assembly, options)),
+        planned_{assembly, features_, pairs.tolerance},
+        fasteners_(fasteners_of(assembly, options)),
+        joints_(fasteners_.empty() ? std::vector<Joint>{} : find_joints(assembly, fasteners_, options.engine.executor)),
         relations_(joints_, groups_, count_),
         validator_(assembly, pairs, engine_options(), groups_, kFarAway * diagonal(assembled_bounds(assembly)),
                    [this] { return keep_going(); }),
         table_(validator_.engine(), features_, groups_, time_left_),
-        choice_(planned(pairs), table_, validator_.engine(), without_directions(), options.engine.executor,
+        choice_(planned_, table_, validator_.engine(), without_directions(), options.engine.executor,
                 [this] { return keep_going(); }),
         joint_steps_(relations_, table_, choice_, groups_),
         single_({assembly, features_, relations_, table_, choice_, joint_steps_, options, time_left_}),
-        curved_(planned(pairs), {groups_, features_, validator_, table_, choice_, keep_going_}, options.slide_effort,
+        curved_(planned_, {groups_, features_, validator_, table_, choice_, keep_going_}, options.slide_effort,
                 options.sample_effort),
         margins_(assembly, pairs, validator_),
         size_(diagonal(assembled_bounds(assembly))),
@@ -89,6 +92,9 @@ class Planner {
       take_out(all, targets_, PlanStep::kWhole);
     }
     take_apart_bodies();
+    plan_.joints = joints_;
+    plan_ = in_good_order(plan_, {planned_, fasteners_, relations_, table_, validator_, options_.preferences,
+                                  options_.engine.executor, keep_going_, describe_});
     if (!options_.wants_reasons || options_.wants_reasons(plan_)) {
       explain_left();
     } else {
@@ -99,7 +105,6 @@ class Planner {
     }
     plan_.out_of_time = time_.has_run_out();
     plan_.effort_spent = !plan_.out_of_time && curved_.may_find_more(plan_.staying);
-    plan_.joints = joints_;
     plan_.seconds = time_.seconds();
     return std::move(plan_);
   }
@@ -112,8 +117,6 @@ class Planner {
   }
 
  private:
-  PlannedAssembly planned(const PairStates& pairs) const { return {assembly_, features_, pairs.tolerance}; }
-
   CertificateOptions engine_options() {
     CertificateOptions options = options_.engine;
     options.keep_going = [this] { return time_.is_left(); };
@@ -206,9 +209,7 @@ class Planner {
       validator_.stand(body);
       std::optional<PlanStep> step = next_step(body, staying, effort, searches);
       if (!step) break;
-      step->unscrewing = relations_.unscrewing(*step, body);
-      step->still_held_by = relations_.torn_by(*step, body);
-      if (options_.margins) step->margin = margins_.of(*step, body.members(), size_);
+      describe_(*step, body);
       body.erase(step->components);
       searches.remove(step->components);
       const auto index = static_cast<std::uint32_t>(plan_.steps.size());
@@ -345,8 +346,10 @@ class Planner {
   RigidGroups groups_;
   std::vector<ComponentId> targets_, fixed_;  // with their groups
   std::vector<ShapeFeatures> features_;
+  PlannedAssembly planned_;
   const KeepGoing keep_going_ = [this] { return keep_going(); };
   const KeepGoing time_left_ = [this] { return time_.is_left(); };
+  const std::vector<std::optional<Fastener>> fasteners_;
   const std::vector<Joint> joints_;
   JointRelations relations_;
   MotionValidator validator_;
@@ -358,6 +361,13 @@ class Planner {
   StepMargins margins_;
   double size_;  // of the assembly [mm]
   OverlapSearch overlaps_;
+  /// Sets what depends on the body that a step takes something from.
+  const std::function<void(PlanStep&, const ComponentSet&)> describe_ = [this](PlanStep& step,
+                                                                               const ComponentSet& body) {
+    step.unscrewing = relations_.unscrewing(step, body);
+    step.still_held_by = relations_.torn_by(step, body);
+    if (options_.margins) step.margin = margins_.of(step, body.members(), size_);
+  };
   DirectionId last_direction_;
   /// Components that are taken apart in one place.
   struct Body {

@@ -19,6 +19,12 @@ constexpr double kFarAway = 100;
 /// Length of exit motions in diagonals of the assembly: past all of it.
 constexpr double kWayOut = 1.1;
 
+Aabb bounds_of(const Assembly& assembly, const PlanStep& step, const Pose& pose) {
+  Aabb box;
+  for (const ComponentId c : step.components) box.extend(bounds_at(assembly[c], pose));
+  return box;
+}
+
 /// Finds the components that block each step.
 class PrecedenceFinder {
  public:
@@ -82,30 +88,11 @@ class PrecedenceFinder {
   }
 
   std::vector<std::uint32_t> near_way(const PlanStep& step, const std::vector<std::uint32_t>& earlier) const {
-    const Aabb passed = box_around_way(step);
+    const Aabb passed = box_around_way(assembly_, step, size_);
     std::vector<std::uint32_t> found;
     for (const std::uint32_t j : earlier)
-      if (overlaps(passed, bounds(plan_.steps[j], Pose{}))) found.push_back(j);
+      if (overlaps(passed, bounds_of(assembly_, plan_.steps[j], Pose{}))) found.push_back(j);
     return found;
-  }
-
-  Aabb bounds(const PlanStep& step, const Pose& pose) const {
-    Aabb box;
-    for (const ComponentId c : step.components) box.extend(bounds_at(assembly_[c], pose));
-    return box;
-  }
-
-  Aabb box_around_way(const PlanStep& step) const {
-    Aabb box = bounds(step, Pose{});
-    Pose from;
-    for (const Pose& to : step.poses) {
-      const Screw screw = screw_between(from, to);
-      box.extend(bounds(step, to));
-      box = inflated(box, screw_chord_deviation(screw, screw_radius(screw, box.center(), diagonal(box) / 2)));
-      from = to;
-    }
-    box.extend(bounds(step, {from.position + kWayOut * size_ * step.exit, from.rotation}));
-    return box;
   }
 
   const Assembly& assembly_;
@@ -129,6 +116,19 @@ Reach reach_of(const std::vector<std::vector<std::uint32_t>>& before) {
 }
 
 }  // namespace
+
+Aabb box_around_way(const Assembly& assembly, const PlanStep& step, double size) {
+  Aabb box = bounds_of(assembly, step, Pose{});
+  Pose from;
+  for (const Pose& to : step.poses) {
+    const Screw screw = screw_between(from, to);
+    box.extend(bounds_of(assembly, step, to));
+    box = inflated(box, screw_chord_deviation(screw, screw_radius(screw, box.center(), diagonal(box) / 2)));
+    from = to;
+  }
+  box.extend(bounds_of(assembly, step, {from.position + kWayOut * size * step.exit, from.rotation}));
+  return box;
+}
 
 PrecedenceGraph precedence_graph(const Assembly& assembly, const PairStates& pairs, const Plan& plan,
                                  const CertificateOptions& options, const KeepGoing& keep_going) {

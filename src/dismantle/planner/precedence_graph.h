@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/assembly.h"
 #include "dismantle/core/keep_going.h"
+#include "dismantle/geometry/aabb.h"
 #include "dismantle/planner/plan.h"
 
 #include <cstdint>
@@ -27,6 +29,10 @@ struct PrecedenceGraph {
 /// @param keep_going once it returns false, unknown relations follow the order of the plan
 PrecedenceGraph precedence_graph(const Assembly& assembly, const PairStates& pairs, const Plan& plan,
                                  const CertificateOptions& options, const KeepGoing& keep_going);
+
+/// A box around everything that a step's components pass on their way, and straight on by 1.1 times `size` [mm,
+/// assembly frame].
+Aabb box_around_way(const Assembly& assembly, const PlanStep& step, double size);
 
 /// The plan with its steps in another order. @pre `order` has each step once, bodies before their parts
 Plan reordered(const Plan& plan, const std::vector<std::uint32_t>& order);

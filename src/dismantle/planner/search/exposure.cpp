@@ -37,6 +37,12 @@ std::array<Vec3, kRays> sky() {
   return directions;
 }
 
+/// The direction of a ray above a surface. @param frame of its normal
+Vec3 direction_of(const AxisFrame& frame, std::size_t ray) {
+  static const std::array<Vec3, kRays> kSky = sky();
+  return kSky[ray].x * frame.first + kSky[ray].y * frame.second + kSky[ray].z * frame.direction;
+}
+
 double fraction(double x) {
   return x - std::floor(x);
 }
@@ -125,8 +131,40 @@ bool Exposure::is_exposed(ComponentId c, const ComponentSet& present) {
   return false;
 }
 
+std::optional<std::vector<ComponentId>> Exposure::opened_by(ComponentId c, const ComponentSet& present,
+                                                            const ComponentSet& gone) {
+  std::optional<std::vector<ComponentId>> least;
+  for (const Sample& sample : samples_of(c)) {
+    auto found = opened_by(sample, c, present, gone);
+    if (found && (!least || found->size() < least->size())) least = std::move(found);
+    if (least && least->size() <= 1) break;
+  }
+  return least;
+}
+
+std::optional<std::vector<ComponentId>> Exposure::opened_by(const Sample& sample, ComponentId own,
+                                                            const ComponentSet& present, const ComponentSet& gone) {
+  const AxisFrame frame(sample.point, sample.normal);
+  std::vector<std::vector<ComponentId>> rays;  // of those that are free among `present`: what they meet of `gone`
+  for (std::size_t i = 0; i < kRays && rays.size() + kRays - i >= kOpen; ++i) {
+    const Vec3 ray = direction_of(frame, i);
+    if (blocker(sample.point, ray, {&own, 1}, present).valid()) continue;
+    std::vector<ComponentId>& met = rays.emplace_back();
+    for_each_near(sample.point, ray, [&](ComponentId c) {
+      if (gone.has(c) && meets(sample.point, ray, c)) met.push_back(c);
+      return true;
+    });
+  }
+  if (rays.size() < kOpen) return std::nullopt;
+  std::stable_sort(rays.begin(), rays.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  std::vector<ComponentId> met;
+  for (std::size_t i = 0; i < kOpen; ++i) met.insert(met.end(), rays[i].begin(), rays[i].end());
+  std::sort(met.begin(), met.end());
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  return met;
+}
+
 bool Exposure::is_open(Sample& sample, ComponentId own, const ComponentSet& present) {
-  static const std::array<Vec3, kRays> kSky = sky();
   const AxisFrame frame(sample.point, sample.normal);
   std::size_t open = 0, blocked = 0;
   ComponentId last = own;
@@ -134,7 +172,7 @@ bool Exposure::is_open(Sample& sample, ComponentId own, const ComponentSet& pres
     if (i == sample.blocker.size()) sample.blocker.push_back(kUntested);
     std::uint32_t& known = sample.blocker[i];
     if (known == kUntested || (known != kFree && !present.has(ComponentId(known)))) {
-      const Vec3 ray = kSky[i].x * frame.first + kSky[i].y * frame.second + kSky[i].z * frame.direction;
+      const Vec3 ray = direction_of(frame, i);
       const std::array<ComponentId, 2> likely{own, last};
       known = blocker(sample.point, ray, {likely.data(), likely.size()}, present).value;
     }
@@ -152,6 +190,16 @@ ComponentId Exposure::blocker(Vec3 point, Vec3 direction, Span<const ComponentId
   for (const ComponentId c : likely)
     if (meets(point, direction, c)) return c;
   ComponentId found;
+  for_each_near(point, direction, [&](ComponentId c) {
+    if (present.has(c) && meets(point, direction, c)) found = c;
+    return !found.valid();
+  });
+  return found;
+}
+
+template <class Visit>
+void Exposure::for_each_near(Vec3 point, Vec3 direction, const Visit& visit) const {
+  bool goes_on = true;
   // Infinite for spheres that the ray misses.
   const auto bound = [&](const BoundingSphere& sphere) {
     const Vec3 to = sphere.center - point;
@@ -159,12 +207,10 @@ ComponentId Exposure::blocker(Vec3 point, Vec3 direction, Span<const ComponentId
     const bool may_meet = along >= -radius && length_squared(to) - along * along <= radius * radius;
     return may_meet ? 0 : std::numeric_limits<double>::infinity();
   };
-  const auto limit = [&] { return found.valid() ? -1.0 : 0.0; };
+  const auto limit = [&] { return goes_on ? 0.0 : -1.0; };
   spheres_.traverse(bound, limit, [&](std::uint32_t i) {
-    const ComponentId c(i);
-    if (!found.valid() && present.has(c) && meets(point, direction, c)) found = c;
+    if (goes_on) goes_on = visit(ComponentId(i));
   });
-  return found;
 }
 
 bool Exposure::meets(Vec3 point, Vec3 direction, ComponentId c) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -26,6 +27,10 @@ class Exposure {
 
   /// True if a component is exposed among `present`. One that was exposed among others counts as exposed.
   bool is_exposed(ComponentId c, const ComponentSet& present);
+  /// Components of `gone` without which `c` is exposed among `present`, whatever others of them are there: few of them,
+  /// not always the fewest. Nothing if it is not exposed.
+  std::optional<std::vector<ComponentId>> opened_by(ComponentId c, const ComponentSet& present,
+                                                    const ComponentSet& gone);
 
  private:
   /// A point on the surface, and what is met by rays from it.
@@ -40,9 +45,14 @@ class Exposure {
   };
 
   std::vector<Sample> samples_of(ComponentId c) const;
+  std::optional<std::vector<ComponentId>> opened_by(const Sample& sample, ComponentId own, const ComponentSet& present,
+                                                    const ComponentSet& gone);
   bool is_open(Sample& sample, ComponentId own, const ComponentSet& present);
   /// A component of `present` that a ray [assembly frame] meets; invalid for none. @param likely those to try first
   ComponentId blocker(Vec3 point, Vec3 direction, Span<const ComponentId> likely, const ComponentSet& present);
+  /// Calls visit(component) for those whose spheres a ray meets, until it returns false.
+  template <class Visit>
+  void for_each_near(Vec3 point, Vec3 direction, const Visit& visit) const;
   bool meets(Vec3 point, Vec3 direction, ComponentId c);
 
   const Assembly& assembly_;

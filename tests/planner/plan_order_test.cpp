@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dismantle/planner/order/plan_order.h"
+
+#include "dismantle/audit/audit_path.h"
+#include "dismantle/planner/plan_path.h"
+#include "tests/planner/plan_scenes.h"
+#include "tests/support/joint_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace dismantle {
+namespace {
+
+using Names = std::vector<std::string>;
+
+struct Planned {
+  scenes::PlanScene scene;
+  Plan plan;
+
+  explicit Planned(Assembly assembly, const PlanOptions& options = {})
+      : scene(scenes::plan_scene(std::move(assembly), 0.05)),
+        plan(plan_disassembly(scene.assembly, scene.pairs, options)) {}
+
+  Names steps() const {
+    Names all;
+    for (const PlanStep& step : plan.steps) {
+      all.emplace_back();
+      for (const ComponentId c : step.components)
+        all.back() += (all.back().empty() ? "" : "+") + scene.assembly[c].name;
+    }
+    return all;
+  }
+  bool holds() const { return audit_path(scene.assembly, plan_path(scene.assembly, scene.pairs, plan)).holds(); }
+};
+
+/// Towers of a small block, "low", under a larger one, "high", on a plate: the smaller one comes first wherever it is
+/// free.
+Assembly towers(int count) {
+  std::vector<Component> components{scenes::component("plate", scenes::box({-20, -20, -5}, {20.0 * count, 20, 0}))};
+  for (int k = 0; k < count; ++k) {
+    const double x = 20 * k;
+    components.push_back(scenes::component("low", scenes::box({x - 3, -3, 0}, {x + 3, 3, 5})));
+    components.push_back(scenes::component("high", scenes::box({x - 6, -6, 5}, {x + 6, 6, 15})));
+  }
+  return scenes::assembly(std::move(components));
+}
+
+TEST(PlanOrder, TakesEqualPartsOneAfterAnother) {
+  const Planned planned(towers(4));
+  EXPECT_TRUE(planned.plan.complete());
+  EXPECT_TRUE(planned.holds());
+  std::string kinds;
+  for (const std::string& name : planned.steps()) kinds += name.front();
+  EXPECT_EQ(kinds, "hhhhllll");
+}
+
+TEST(PlanOrder, IsThatOfTheUser) {
+  PlanOptions options;
+  options.preferences = {StepPreference::Direction};
+  const Planned planned(towers(4), options);
+  std::string kinds;
+  for (const std::string& name : planned.steps()) kinds += name.front();
+  EXPECT_NE(kinds, "hhhhllll") << "one direction whatever the order: nothing to gain";
+  EXPECT_TRUE(planned.holds());
+}
+
+TEST(PlanOrder, WeighsCriteriaByTheirPlace) {
+  const OrderWeights weights = order_weights({StepPreference::Support, StepPreference::Groups});
+  EXPECT_EQ(weights.support, 10);
+  EXPECT_EQ(weights.groups, 1);
+  EXPECT_EQ(weights.direction, 0);
+  EXPECT_EQ(weights.loose, 0);
+  EXPECT_EQ(order_weights({}).groups, OrderWeights{}.groups);
+}
+
+TEST(PlanOrder, TakesWhatIsInsideAfterTheCover) {
+  // "chip" is equal to "plug", which is free outside: together they would make one step fewer, but the slot that lets
+  // the chip out shows nothing of it.
+  Assembly assembly = scenes::covered_case();
+  const Component& chip = assembly[*assembly.find("chip")];
+  Component plug = chip;
+  plug.name = "plug";
+  plug.assembly_from_mesh.translation += Vec3{0, 0, 200};
+  assembly.components.push_back(plug);
+  assembly.components.back().tree_node = chip.tree_node;
+  const Planned planned(assembly);
+  const Names steps = planned.steps();
+  const auto place = [&](const char* name) { return std::find(steps.begin(), steps.end(), name) - steps.begin(); };
+  EXPECT_LT(place("cover"), place("chip"));
+  EXPECT_TRUE(planned.holds());
+}
+
+TEST(PlanOrder, GivesEachBodyASectionOfItsOwn) {
+  Assembly assembly = scenes::framed_dovetail();
+  const Planned planned(assembly);
+  ASSERT_GE(planned.plan.steps.size(), 2u);
+  EXPECT_TRUE(planned.holds());
+  std::uint32_t section = PlanStep::kWhole;
+  for (std::uint32_t k = 0; k < planned.plan.steps.size(); ++k) {
+    const std::uint32_t part_of = planned.plan.steps[k].part_of;
+    EXPECT_TRUE(part_of == PlanStep::kWhole || part_of < k);
+    if (part_of != section) EXPECT_NE(part_of, PlanStep::kWhole) << "the assembly's own steps come first";
+    section = part_of;
+  }
+}
+
+TEST(PlanOrder, IsTheSameWithAnyNumberOfThreads) {
+  PlanOptions threads;
+  threads.engine.executor = Executor(ExecutorKind::Threads, 3);
+  for (const Assembly& assembly : {towers(5), scenes::stations(30)})
+    EXPECT_EQ(Planned(assembly).steps(), Planned(assembly, threads).steps());
+}
+
+}  // namespace
+}  // namespace dismantle
