@@ -60,9 +60,11 @@ Result<Done> write_json(const fs::path& file, const Json& json) {
 /// Plans, writes the plan and adds its numbers to the summary.
 Result<Done> plan(const BatchCommand& command, const Assembly& assembly, const PairStates& states,
                   const fs::path& folder, Json& summary) {
-  const Executor executor = make_executor(command.common);
-  const Plan plan = plan_disassembly(
-      assembly, states, {{}, {}, command.time_limit, {executor, widest_lanes()}, progress_printer(command.common)});
+  PlanOptions options;
+  options.time_limit = command.time_limit;
+  options.engine = {make_executor(command.common), widest_lanes()};
+  options.progress = progress_printer(command.common);
+  const Plan plan = plan_disassembly(assembly, states, options);
   const Path path = plan_path(assembly, states, plan);
   if (Result<Done> written = write_path(folder / "plan.path.json", path); !written) return written;
   if (Result<Done> written = write_json(folder / "plan.json", plan_json(assembly, plan, path)); !written)

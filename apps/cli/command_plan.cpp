@@ -8,6 +8,7 @@
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/instructions/precedence_drawing.h"
 #include "dismantle/instructions/precedence_files.h"
+#include "dismantle/planner/order/step_order.h"
 #include "dismantle/planner/plan_allowing_overlaps.h"
 #include "dismantle/planner/plan_path.h"
 #include "dismantle/planner/step_preference.h"
@@ -32,10 +33,25 @@ struct PlanCommand {
   std::string output, graph;
   std::vector<std::string> targets, fixed;
   double time_limit = 0, effort = 1, allow_overlap = 0;
-  std::vector<StepPreference> preferences;
+  std::vector<std::string> preferences;
   FastenerOrder fasteners = FastenerOrder::First;
   bool margins = false;
 };
+
+/// Accepts the name of a criterion, with a weight or without.
+CLI::Validator preference() {
+  std::vector<std::string> names;
+  for (const auto& known : step_preferences()) names.push_back(known.first);
+  const CLI::Validator is_name = one_of(std::move(names)), is_weight = above_zero();
+  return CLI::Validator(
+      [is_name, is_weight](std::string& text) {
+        const std::size_t end = text.find('=');
+        std::string name = text.substr(0, end), weight = end == std::string::npos ? "1" : text.substr(end + 1);
+        const std::string error = is_name(name);
+        return error.empty() ? is_weight(weight) : error;
+      },
+      "");
+}
 
 bool ends_with(const std::string& text, std::string_view ending) {
   return text.size() >= ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
@@ -135,7 +151,11 @@ Result<ExitCode> run(const PlanCommand& command) {
 
   PlanOptions options{*targets, *fixed, 0, {executor, widest_lanes()}, progress_printer(command.common)};
   options.search_longer(command.effort);
-  options.preferences = command.preferences;
+  const std::optional<ChosenPreferences> chosen = read_preferences(command.preferences);
+  if (!chosen)
+    return Error{ErrorKind::Usage, "--prefer cannot be followed (it names a criterion twice); name each once"};
+  options.preferences = chosen->criteria;
+  options.preference_weights = chosen->weights;
   options.margins = command.margins;
   options.fasteners = command.fasteners;
   options.flexible = choices->flexible;
@@ -219,12 +239,16 @@ void add_plan_command(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--margins", options->margins,
                     "For each step, by how much all surfaces could grow before it would not be free: half the smallest "
                     "distance to what the moving components do not touch in the assembled state");
+  const OrderWeights usual;
   command
       ->add_option("--prefer", options->preferences,
-                   "Among components that can be removed next, prefer the same direction, not downwards (z "
-                   "is up), equal components in a row, or keeping all supported; the first counts most")
-      ->transform(choice(step_preferences()))
-      ->type_name("direction|upright|groups|support");
+                   fmt::format("What makes an order of steps good: few changes of direction, little turning over (z is "
+                               "up), equal components in a row, nothing left unsupported, few changes of tool, nothing "
+                               "left loose; the first counts most, or each by its weight (default: direction={} "
+                               "upright={} groups={} tools={} loose={})",
+                               usual.direction, usual.upright, usual.groups, usual.tools, usual.loose))
+      ->check(preference())
+      ->type_name("direction|upright|groups|support|tools|loose[=WEIGHT]");
   command
       ->add_option(
           "--fasteners", options->fasteners,

@@ -39,20 +39,20 @@ Result<std::vector<ComponentId>> Arguments::list(const char* name) const {
   return ids;
 }
 
-Result<std::vector<StepPreference>> Arguments::preferences() const {
-  std::vector<StepPreference> preferences;
+Result<ChosenPreferences> Arguments::preferences() const {
   const auto found = command_.find("prefer");
-  if (found == command_.end()) return preferences;
-  const std::string expected = "a list of direction, upright, groups, support, each once at most";
+  if (found == command_.end()) return ChosenPreferences{};
+  const std::string expected =
+      "a list of direction, upright, groups, support, tools, loose, each once at most, as it is or as \"groups=2\"";
+  std::vector<std::string> texts;
   if (!found->is_array()) return wrong("prefer", expected);
   for (const Json& one : *found) {
-    const auto known = one.is_string() ? step_preferences().find(one.get<std::string>()) : step_preferences().end();
-    if (known == step_preferences().end() ||
-        std::find(preferences.begin(), preferences.end(), known->second) != preferences.end())
-      return wrong("prefer", expected);
-    preferences.push_back(known->second);
+    if (!one.is_string()) return wrong("prefer", expected);
+    texts.push_back(one.get<std::string>());
   }
-  return preferences;
+  const std::optional<ChosenPreferences> chosen = read_preferences(texts);
+  if (!chosen) return wrong("prefer", expected);
+  return *chosen;
 }
 
 Result<double> Arguments::effort() const {

@@ -29,7 +29,7 @@ class Arguments {
   /// A list of components; empty if it is missing.
   Result<std::vector<ComponentId>> list(const char* name) const;
   /// The member `prefer`, the most important first; empty if it is missing.
-  Result<std::vector<StepPreference>> preferences() const;
+  Result<ChosenPreferences> preferences() const;
   /// The member `effort`, above 0 and at most kMaxEffort; 1 if it is missing.
   Result<double> effort() const;
   /// The member `direction`; none if it is missing or null.

@@ -49,7 +49,8 @@ PlanOptions plan_options(const SearchRequest& request, const ProgressCallback& p
   options.engine = engine_beside(request.engine);
   options.progress = progress;
   options.engine.prepared = snapshot.prepared;
-  options.preferences = request.preferences;
+  options.preferences = request.preferences.criteria;
+  options.preference_weights = request.preferences.weights;
   options.search_longer(request.effort);
   return options;
 }

@@ -4,6 +4,7 @@
 #include "dismantle/core/progress.h"
 #include "dismantle/core/result.h"
 #include "dismantle/planner/plan_disassembly.h"
+#include "dismantle/planner/step_preference.h"
 #include "dismantle/session/session.h"
 
 #include "apps/server/session_json.h"
@@ -52,7 +53,7 @@ struct SearchRequest {
   std::shared_ptr<const SessionSnapshot> snapshot;  ///< The state to search from; never null when run.
   std::vector<ComponentId> targets;                 ///< All in `snapshot`. Why: one; Plan: none for everything.
   std::vector<ComponentId> fixed;                   ///< Plan: components that never move, none of them a target.
-  std::vector<StepPreference> preferences;          ///< See PlanOptions.
+  ChosenPreferences preferences;                    ///< See PlanOptions.
   CertificateOptions engine;                        ///< Of the session's engine; one thread is left to the session.
   double effort = 1;                                ///< See PlanOptions::search_longer().
 };

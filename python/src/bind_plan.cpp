@@ -34,17 +34,15 @@ struct StepOfPlan {
   PlanStep step;
 };
 
-std::vector<StepPreference> preferences_of(const std::vector<std::string>& names) {
-  std::vector<StepPreference> preferences;
-  for (const std::string& name : names) {
-    const auto& known = step_preferences();
-    const auto found = known.find(name);
-    if (found == known.end())
-      raise_usage("the plan cannot prefer '" + name +
-                  "' (there is no such preference); give 'direction', 'upright', 'groups' or 'support'");
-    preferences.push_back(found->second);
-  }
-  return preferences;
+ChosenPreferences preferences_of(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts)
+    if (!read_preferences({text}))
+      raise_usage("the plan cannot prefer '" + text +
+                  "' (there is no such preference); give 'direction', 'upright', 'groups', 'support', 'tools' or "
+                  "'loose', with a weight above 0 as in 'groups=2' or without");
+  const std::optional<ChosenPreferences> chosen = read_preferences(texts);
+  if (!chosen) raise_usage("the plan cannot prefer the same thing twice (prefer names it twice); name each once");
+  return *chosen;
 }
 
 PlanView plan(const CheckedHolder& states, const py::object& targets, const py::object& fixed,
@@ -52,7 +50,9 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
               const std::string& fasteners, int threads, const py::object& progress) {
   PythonProgress watched(progress);
   PlanOptions options;
-  options.preferences = preferences_of(prefer);
+  const ChosenPreferences chosen = preferences_of(prefer);
+  options.preferences = chosen.criteria;
+  options.preference_weights = chosen.weights;
   options.targets = components_of(*states->assembly, targets);
   options.fixed = components_of(*states->assembly, fixed);
   options.time_limit = time_limit;
@@ -271,8 +271,9 @@ void bind_plan(py::module_& module) {
       "plan", &plan, py::arg("states"), py::kw_only(), py::arg("targets") = py::none(), py::arg("fixed") = py::none(),
       py::arg("prefer") = py::tuple(), py::arg("time_limit") = 0.0, py::arg("effort") = 1.0, py::arg("margins") = false,
       py::arg("fasteners") = "first", py::arg("threads") = 0, py::arg("progress") = py::none(),
-      "Finds a disassembly sequence of everything, or of `targets`; components in `fixed` never move. `prefer` orders "
-      "the components that can be removed next: 'direction', 'upright', 'groups', 'support', the first counts most. "
+      "Finds a disassembly sequence of everything, or of `targets`; components in `fixed` never move. `prefer`: what "
+      "makes an order of steps good: 'direction', 'upright', 'groups', 'support', 'tools', 'loose'; the first counts "
+      "most, or each by its weight, as in 'groups=2'. "
       "`time_limit` [s]; 0: none. `effort`: factor of the effort for paths that are not straight. `margins`: "
       "find PlanStep.margin. `fasteners`: 'first', before what they hold, or 'any'.");
   module.def("why", &why, py::arg("states"), py::arg("component"), py::kw_only(), py::arg("threads") = 0,

@@ -178,6 +178,24 @@ TEST(StepOrder, KeepsTheToolInHand) {
   EXPECT_EQ(best_cost(steps, weights), 3);
 }
 
+TEST(StepOrder, KeepsTogetherWhatFollowsAtOnce) {
+  Steps steps;  // nuts and bolts, and plates of two kinds in between
+  for (std::uint32_t k = 0; k < 30; ++k) {
+    OrderedStep& step = steps.emplace_back();
+    step.kind = k % 3 == 2 ? 1 + k % 2 : 0;
+    step.direction = k % 3 == 0 ? 1 : 0;
+    if (k % 3 == 0) step.followed_by = k + 1;
+    if (k % 3 == 1) step.before = {k - 1};
+  }
+  OrderWeights weights = kNothing;
+  weights.groups = 1;
+  weights.direction = 1e-3;
+  const Order order = best_order(steps, weights, kAlways);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    EXPECT_TRUE(order[i] % 3 != 0 || order.at(i + 1) == order[i] + 1);
+  EXPECT_NEAR(order_cost(steps, weights, order), 3, 0.1);
+}
+
 TEST(StepOrder, TakesAwayWhatItsLastScrewHeld) {
   Steps steps;  // 15 lids with four screws each: all screws, then all lids
   for (std::uint32_t k = 0; k < 60; ++k) steps.emplace_back().kind = 1;

@@ -103,5 +103,20 @@ TEST(StepPreference, TakesWhatStandsOnAComponentBeforeIt) {
   EXPECT_EQ(first({StepPreference::Support}), ComponentId(3));
 }
 
+TEST(StepPreference, IsReadWithAndWithoutWeights) {
+  const auto plain = read_preferences({"support", "groups"});
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->criteria, (Preferences{StepPreference::Support, StepPreference::Groups}));
+  EXPECT_TRUE(plain->weights.empty());
+  const auto weighted = read_preferences({"tools", "groups=2.5", "loose=0.1"});
+  ASSERT_TRUE(weighted);
+  EXPECT_EQ(weighted->criteria, (Preferences{StepPreference::Groups, StepPreference::Tools, StepPreference::Loose}));
+  EXPECT_EQ(weighted->weights, (std::vector<double>{2.5, 1, 0.1}));
+  EXPECT_TRUE(read_preferences({}));
+  for (const char* wrong : {"", "beauty", "groups=", "groups=0", "groups=-1", "groups=x", "groups=1e400", "=1"})
+    EXPECT_FALSE(read_preferences({wrong})) << wrong;
+  EXPECT_FALSE(read_preferences({"groups", "groups=2"}));
+}
+
 }  // namespace
 }  // namespace dismantle

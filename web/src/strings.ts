@@ -158,6 +158,8 @@ const kEnglish = {
   "plan.prefer.upright": "No turning over (z is up)",
   "plan.prefer.groups": "Equal fasteners together",
   "plan.prefer.support": "Nothing left unsupported",
+  "plan.prefer.tools": "Few changes of tool",
+  "plan.prefer.loose": "Nothing left loose for long",
   "plan.find": "Find the sequence",
   "plan.complete": "{steps} found in {seconds} s. See the guide below.",
   "plan.partly": "{steps} found in {seconds} s. These components remain:",

@@ -93,7 +93,8 @@ class Planner {
     }
     take_apart_bodies();
     plan_.joints = joints_;
-    plan_ = in_good_order(plan_, {planned_, fasteners_, relations_, table_, validator_, options_.preferences,
+    plan_ = in_good_order(plan_, {planned_, fasteners_, relations_, table_, validator_,
+                                  order_weights(options_.preferences, options_.preference_weights),
                                   options_.engine.executor, keep_going_, describe_});
     if (!options_.wants_reasons || options_.wants_reasons(plan_)) {
       explain_left();

@@ -12,12 +12,14 @@
 
 namespace dismantle {
 
-/// A criterion for choosing among several possible next steps.
+/// A criterion for choosing among several possible next steps, and for the order of all.
 enum class StepPreference {
   Direction,  ///< It has the direction of the previous step.
   Upright,    ///< It does not move downwards, so that nothing has to be turned over. z is up.
   Groups,     ///< Its components equal those of the previous step: equal fasteners together.
   Support,    ///< It takes the support from below away from no component.
+  Tools,      ///< It needs the tool of the previous one. For the order of all steps only.
+  Loose,      ///< It removes what is held no more. For the order of all steps only.
 };
 
 /// The place of threaded fasteners in the order of steps.
@@ -40,6 +42,8 @@ struct PlanOptions {
   /// Criteria for choosing among single components that can be removed straight next, the most important first. Empty:
   /// the first that is found, those in the direction of the previous step first, which is faster.
   std::vector<StepPreference> preferences{};
+  /// What each of them costs in the order of all steps (OrderWeights); empty: ten times as much as the next one.
+  std::vector<double> preference_weights{};
   /// For each component that stays, an overlap is searched for by which it would come out, up to this much more than
   /// what is allowed (OverlapSearch) [mm]; 0: none.
   double overlap_limit = 0;

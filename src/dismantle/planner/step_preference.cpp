@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/step_preference.h"
 
+#include "dismantle/files/text_scan.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -44,6 +46,9 @@ class RemovalJudge {
         return before_.component.valid() && choice_.kinds[c.value] == choice_.kinds[before_.component.value] ? 0 : 1;
       case StepPreference::Support:
         return left_loose(c);
+      case StepPreference::Tools:
+      case StepPreference::Loose:
+        return 0;
     }
     return 0;
   }
@@ -68,11 +73,38 @@ class RemovalJudge {
 }  // namespace
 
 const std::map<std::string, StepPreference>& step_preferences() {
-  static const std::map<std::string, StepPreference> kNames{{"direction", StepPreference::Direction},
-                                                            {"upright", StepPreference::Upright},
-                                                            {"groups", StepPreference::Groups},
-                                                            {"support", StepPreference::Support}};
+  static const std::map<std::string, StepPreference> kNames{
+      {"direction", StepPreference::Direction}, {"upright", StepPreference::Upright},
+      {"groups", StepPreference::Groups},       {"support", StepPreference::Support},
+      {"tools", StepPreference::Tools},         {"loose", StepPreference::Loose}};
   return kNames;
+}
+
+std::optional<ChosenPreferences> read_preferences(const std::vector<std::string>& texts) {
+  std::vector<std::pair<double, StepPreference>> read;
+  bool has_weights = false;
+  for (const std::string& text : texts) {
+    const std::size_t end = std::min(text.find('='), text.size());
+    const auto known = step_preferences().find(text.substr(0, end));
+    double weight = 1;
+    if (end < text.size()) {
+      const std::optional<double> number = to_double(std::string_view(text).substr(end + 1));
+      if (!number || !(*number > 0)) return std::nullopt;
+      weight = *number;
+      has_weights = true;
+    }
+    if (known == step_preferences().end()) return std::nullopt;
+    if (std::any_of(read.begin(), read.end(), [&](const auto& other) { return other.second == known->second; }))
+      return std::nullopt;
+    read.emplace_back(weight, known->second);
+  }
+  std::stable_sort(read.begin(), read.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  ChosenPreferences chosen;
+  for (const auto& [weight, criterion] : read) {
+    chosen.criteria.push_back(criterion);
+    if (has_weights) chosen.weights.push_back(weight);
+  }
+  return chosen;
 }
 
 std::vector<StraightRemoval> preferred_removals(const RemovalChoice& choice, const ComponentSet& present,

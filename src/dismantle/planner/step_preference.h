@@ -5,13 +5,25 @@
 #include "dismantle/planner/search/removal_search.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace dismantle {
 
-/// Criteria by their names for users: "direction", "upright", "groups", "support".
+/// Criteria by their names for users: "direction", "upright", "groups", "support", "tools", "loose".
 const std::map<std::string, StepPreference>& step_preferences();
+
+/// Criteria of a user, the most important first.
+struct ChosenPreferences {
+  std::vector<StepPreference> criteria;
+  std::vector<double> weights;  ///< Of each; empty if none was given.
+};
+
+/// Reads criteria by their names, each with a weight above 0 or without: "groups", "groups=2.5". If some have weights,
+/// the others count 1, and those that count most come first. Nothing if a name is unknown or repeated, or a weight is
+/// no such number.
+std::optional<ChosenPreferences> read_preferences(const std::vector<std::string>& texts);
 
 /// The previous step, as far as criteria compare with it.
 struct StepBefore {

@@ -71,7 +71,7 @@ export interface Reason {
 }
 
 /// Preferences between possible next steps of a plan.
-export const kPreferences = ["direction", "upright", "groups", "support"] as const;
+export const kPreferences = ["direction", "upright", "groups", "support", "tools", "loose"] as const;
 /// One of kPreferences.
 export type Preference = (typeof kPreferences)[number];
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/order/plan_order.h"
 
+#include "dismantle/core/contract.h"
 #include "dismantle/math/screw.h"
 #include "dismantle/planner/precedence_graph.h"
 #include "dismantle/planner/search/exposure.h"
@@ -25,7 +26,7 @@ constexpr double kVertical = 0.2;
 /// A criterion counts as many times as much as the next one.
 constexpr double kMoreImportant = 10;
 
-constexpr std::uint32_t kNoStep = 0xffffffffu;
+constexpr std::uint32_t kNoStep = OrderedStep::kNone;
 
 using Indices = std::vector<std::uint32_t>;
 
@@ -39,6 +40,12 @@ class StepKinds {
  public:
   StepKinds(const Assembly& assembly, const std::vector<std::optional<Fastener>>& fasteners)
       : shapes_(first_of_shape(assembly)), fasteners_(fasteners) {}
+
+  /// The kind of steps that follow one another at once.
+  std::uint32_t joined(const Indices& kinds) {
+    const auto key = std::make_tuple(kinds, OrderedStep::kNone, 0LL);
+    return kinds_.try_emplace(key, static_cast<std::uint32_t>(kinds_.size())).first->second;
+  }
 
   OrderedStep describe(const PlanStep& step) {
     OrderedStep ordered;
@@ -104,6 +111,7 @@ class SectionOrder {
     for (std::uint32_t i = 0; i < members_.size(); ++i) steps.push_back(kinds.describe(step(i)));
     add_joints(steps);
     add_passed(steps);
+    keep_stacks_together(steps, kinds);
     if (weights.support > 0) add_supports(steps);
     if (!with_.keep_going()) return members_;
     const Indices order = best_order(steps, weights, with_.keep_going);
@@ -133,6 +141,31 @@ class SectionOrder {
         add_unique(steps[after].before, released);
         add_unique(steps[after].held_by, released);
       }
+    }
+  }
+
+  /// The parts of a stack that follow one another at once go on doing so, and equal stacks are of one kind.
+  void keep_stacks_together(std::vector<OrderedStep>& steps, StepKinds& kinds) const {
+    for (const Joint& joint : plan_.joints) {
+      Indices stack;
+      for (const ComponentId c : joint.stack())
+        if (step_of_[c.value] != kNoStep) add_unique(stack, step_of_[c.value]);
+      for (std::size_t i = 1; i < stack.size(); ++i)
+        if (stack[i] == stack[i - 1] + 1) steps[stack[i - 1]].followed_by = stack[i];
+    }
+    for (std::uint32_t first = 0; first < steps.size(); ++first) {
+      std::uint32_t last = first;
+      while (steps[last].followed_by != kNoStep) last = steps[last].followed_by;
+      if (last == first) continue;
+      Indices kinds_of_each;
+      for (std::uint32_t i = first; i <= last; ++i) {
+        kinds_of_each.push_back(steps[i].kind);
+        for (const std::uint32_t before : steps[i].before)
+          if (before < first) add_unique(steps[first].before, before);
+      }
+      const std::uint32_t kind = kinds.joined(kinds_of_each);
+      for (; first < last; ++first) steps[first].kind = kind;
+      steps[last].kind = kind;
     }
   }
 
@@ -254,7 +287,7 @@ class PlanOrder {
         with_(with),
         kinds_(with.planned.assembly, with.fasteners),
         exposure_(with.planned.assembly, with.planned.features),
-        weights_(order_weights(with.preferences)) {
+        weights_(with.weights) {
     for (std::uint32_t k = 0; k < plan.steps.size(); ++k) members_[plan.steps[k].part_of].push_back(k);
   }
 
@@ -289,28 +322,35 @@ std::size_t torn(const Plan& plan) {
 
 }  // namespace
 
-OrderWeights order_weights(const std::vector<StepPreference>& preferences) {
+OrderWeights order_weights(const std::vector<StepPreference>& preferences, const std::vector<double>& weights) {
+  DISMANTLE_EXPECT(weights.empty() || weights.size() == preferences.size());
   if (preferences.empty()) return {};
-  OrderWeights weights{0, 0, 0, 0, 0, 0};
-  double weight = 1;
-  for (auto preference = preferences.rbegin(); preference != preferences.rend(); ++preference) {
-    switch (*preference) {
+  OrderWeights order{0, 0, 0, 0, 0, 0};
+  double by_place = 1;
+  for (std::size_t i = preferences.size(); i-- > 0; by_place *= kMoreImportant) {
+    const double weight = weights.empty() ? by_place : weights[i];
+    switch (preferences[i]) {
       case StepPreference::Direction:
-        weights.direction = weight;
+        order.direction = weight;
         break;
       case StepPreference::Upright:
-        weights.upright = weight;
+        order.upright = weight;
         break;
       case StepPreference::Groups:
-        weights.groups = weight;
+        order.groups = weight;
         break;
       case StepPreference::Support:
-        weights.support = weight;
+        order.support = weight;
+        break;
+      case StepPreference::Tools:
+        order.tools = weight;
+        break;
+      case StepPreference::Loose:
+        order.loose = weight;
         break;
     }
-    weight *= kMoreImportant;
   }
-  return weights;
+  return order;
 }
 
 Plan in_good_order(const Plan& plan, const PlanOrderContext& with) {

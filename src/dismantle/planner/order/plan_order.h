@@ -15,9 +15,9 @@
 
 namespace dismantle {
 
-/// The weights for criteria, the most important first: each counts ten times as much as the next, all others nothing.
-/// Without criteria, the usual weights.
-OrderWeights order_weights(const std::vector<StepPreference>& preferences);
+/// The weights for criteria, all others count nothing; without criteria, the usual weights.
+/// @param weights of each; empty: each counts ten times as much as the next
+OrderWeights order_weights(const std::vector<StepPreference>& preferences, const std::vector<double>& weights);
 
 /// What the order of a plan is chosen with.
 struct PlanOrderContext {
@@ -26,7 +26,7 @@ struct PlanOrderContext {
   const JointRelations& relations;                        ///< Of the plan's joints.
   BlockingTable& table;                                   ///< Relations are looked up, and tested where unknown.
   MotionValidator& validator;                             ///< For steps that pass what they did not pass before.
-  const std::vector<StepPreference>& preferences;         ///< Of the user.
+  OrderWeights weights;                                   ///< Of the plan.
   const Executor& executor;                               ///< Tests relations side by side.
   const KeepGoing& keep_going;                            ///< Once it returns false, the order stays as it is.
   /// Sets what depends on the components that are present when a step is made.

@@ -15,7 +15,7 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNone = OrderedStep::kNone;
 /// States that are kept for each number of steps: in the first round, and the factor of the next.
 constexpr std::size_t kFirstWidth = 4, kWider = 4, kWidest = 256;
 /// Continuations that all rounds together may examine.
@@ -189,13 +189,20 @@ class OrderSearch {
     std::vector<Continuation> next;
     for (std::uint32_t i = 0; i < beam.size(); ++i) {
       const State& s = beam[i];
+      const auto add = [&](std::uint32_t k) {
+        ++work_;
+        const double cost = s.cost + problem_.cost_after(s, k);
+        next.push_back({cost + problem_.least_after(s, k), cost, i, k});
+      };
+      if (s.trace != kNone && steps_[trace_[s.trace].second].followed_by != kNone) {
+        add(steps_[trace_[s.trace].second].followed_by);
+        continue;
+      }
       examined_.assign(s.kinds_left.size(), 0);
       for (const std::uint32_t k : s.available) {
         if (examined_[steps_[k].kind] == equal_ones) continue;
         ++examined_[steps_[k].kind];
-        ++work_;
-        const double cost = s.cost + problem_.cost_after(s, k);
-        next.push_back({cost + problem_.least_after(s, k), cost, i, k});
+        add(k);
       }
     }
     std::sort(next.begin(), next.end(), [](const Continuation& a, const Continuation& b) {

@@ -10,10 +10,13 @@ namespace dismantle {
 
 /// What the place of a step in an order is judged by.
 struct OrderedStep {
+  static constexpr std::uint32_t kNone = 0xffffffffu;  ///< No step.
+
   std::uint32_t kind = 0;              ///< Equal for steps that can be described as one: equal components, moved alike.
   std::uint32_t direction = 0;         ///< Equal for equal directions of exit.
   int up = 0;                          ///< 1 if it leaves upwards, -1 downwards, 0 sideways.
   std::uint32_t tool = 0;              ///< Equal for equal tools; 0: none.
+  std::uint32_t followed_by = kNone;   ///< The step that comes next, at once. @pre all that is before it is before this
   std::vector<std::uint32_t> before;   ///< Steps that have to come before it, ascending.
   std::vector<std::uint32_t> held_by;  ///< Steps that remove what holds its components: once all are done, it is loose.
   std::vector<std::uint32_t> rests_on;  ///< Steps that remove what supports its components from below.
