@@ -35,20 +35,29 @@ struct Planned {
   bool holds() const { return audit_path(scene.assembly, plan_path(scene.assembly, scene.pairs, plan)).holds(); }
 };
 
-/// Towers of a small block, "low", under a larger one, "high", on a plate: the smaller one comes first wherever it is
-/// free.
-Assembly towers(int count) {
-  std::vector<Component> components{scenes::component("plate", scenes::box({-20, -20, -5}, {20.0 * count, 20, 0}))};
+/// A block with wells that are open upwards, in each of them a flat part, "low", under a taller one, "high": the
+/// smaller one comes first wherever it is free.
+Assembly wells(int count) {
+  std::vector<double> x{-10};
   for (int k = 0; k < count; ++k) {
-    const double x = 20 * k;
-    components.push_back(scenes::component("low", scenes::box({x - 3, -3, 0}, {x + 3, 3, 5})));
-    components.push_back(scenes::component("high", scenes::box({x - 6, -6, 5}, {x + 6, 6, 15})));
+    x.push_back(20.0 * k - 5);
+    x.push_back(20.0 * k + 5);
+  }
+  x.push_back(x.back() + 5);
+  const auto block = scenes::box_block({{x, {-10, -5, 5, 10}, {-5, 0, 20}}},
+                                       [](int i, int j, int k) { return k == 0 || j != 1 || i % 2 == 0; });
+  std::vector<Component> components{scenes::component("block", block)};
+  for (int k = 0; k < count; ++k) {
+    const double at = 20 * k;
+    const std::string number = " " + std::to_string(k);
+    components.push_back(scenes::component("low" + number, scenes::box({at - 5, -5, 0}, {at + 5, 5, 5})));
+    components.push_back(scenes::component("high" + number, scenes::box({at - 5, -5, 5}, {at + 5, 5, 15})));
   }
   return scenes::assembly(std::move(components));
 }
 
 TEST(PlanOrder, TakesEqualPartsOneAfterAnother) {
-  const Planned planned(towers(4));
+  const Planned planned(wells(4));
   EXPECT_TRUE(planned.plan.complete());
   EXPECT_TRUE(planned.holds());
   std::string kinds;
@@ -59,7 +68,7 @@ TEST(PlanOrder, TakesEqualPartsOneAfterAnother) {
 TEST(PlanOrder, IsThatOfTheUser) {
   PlanOptions options;
   options.preferences = {StepPreference::Direction};
-  const Planned planned(towers(4), options);
+  const Planned planned(wells(4), options);
   std::string kinds;
   for (const std::string& name : planned.steps()) kinds += name.front();
   EXPECT_NE(kinds, "hhhhllll") << "one direction whatever the order: nothing to gain";
@@ -110,7 +119,7 @@ TEST(PlanOrder, GivesEachBodyASectionOfItsOwn) {
 TEST(PlanOrder, IsTheSameWithAnyNumberOfThreads) {
   PlanOptions threads;
   threads.engine.executor = Executor(ExecutorKind::Threads, 3);
-  for (const Assembly& assembly : {towers(5), scenes::stations(30)})
+  for (const Assembly& assembly : {wells(5), scenes::stations(30)})
     EXPECT_EQ(Planned(assembly).steps(), Planned(assembly, threads).steps());
 }
 

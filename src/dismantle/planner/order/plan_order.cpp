@@ -2,7 +2,6 @@
 #include "dismantle/planner/order/plan_order.h"
 
 #include "dismantle/core/contract.h"
-#include "dismantle/math/screw.h"
 #include "dismantle/planner/precedence_graph.h"
 #include "dismantle/planner/search/exposure.h"
 #include "dismantle/surface/equal_shapes.h"
@@ -10,17 +9,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace dismantle {
 
 namespace {
 
-/// Directions within this sine, and total rotations within this angle [rad], are equal.
-constexpr double kSameDirection = 0.02, kSameAngle = 0.05;
+/// Directions within this sine are equal.
+constexpr double kSameDirection = 0.02;
 /// Exits that point up or down by more than this sine are made from above or from below.
 constexpr double kVertical = 0.2;
 /// A criterion counts as many times as much as the next one.
@@ -42,9 +39,9 @@ class StepKinds {
       : shapes_(first_of_shape(assembly)), fasteners_(fasteners) {}
 
   /// The kind of steps that follow one another at once.
-  std::uint32_t joined(const Indices& kinds) {
-    const auto key = std::make_tuple(kinds, OrderedStep::kNone, 0LL);
-    return kinds_.try_emplace(key, static_cast<std::uint32_t>(kinds_.size())).first->second;
+  std::uint32_t joined(Indices kinds) {
+    kinds.push_back(OrderedStep::kNone);  // unlike shapes
+    return kind_of(kinds);
   }
 
   OrderedStep describe(const PlanStep& step) {
@@ -55,11 +52,7 @@ class StepKinds {
     shapes.reserve(step.components.size());
     for (const ComponentId c : step.components) shapes.push_back(shapes_[c.value].value);
     std::sort(shapes.begin(), shapes.end());
-    double angle = 0;
-    for (std::size_t i = 0; i < step.poses.size(); ++i)
-      angle += screw_between(i == 0 ? Pose{} : step.poses[i - 1], step.poses[i]).angle;
-    const auto key = std::make_tuple(shapes, ordered.direction, std::llround(angle / kSameAngle));
-    ordered.kind = kinds_.try_emplace(key, static_cast<std::uint32_t>(kinds_.size())).first->second;
+    ordered.kind = kind_of(shapes);
     for (const ComponentId c : step.components) {
       if (fasteners_.empty() || !fasteners_[c.value]) continue;
       const std::string tool = tool_text(*fasteners_[c.value]);
@@ -71,6 +64,10 @@ class StepKinds {
   }
 
  private:
+  std::uint32_t kind_of(const Indices& shapes) {
+    return kinds_.try_emplace(shapes, static_cast<std::uint32_t>(kinds_.size())).first->second;
+  }
+
   std::uint32_t direction(const Vec3& exit) {
     const auto same = std::find_if(directions_.begin(), directions_.end(),
                                    [&](const Vec3& known) { return length(known - exit) < kSameDirection; });
@@ -84,7 +81,7 @@ class StepKinds {
   std::vector<ComponentId> shapes_;
   const std::vector<std::optional<Fastener>>& fasteners_;
   std::vector<Vec3> directions_;
-  std::map<std::tuple<Indices, std::uint32_t, long long>, std::uint32_t> kinds_;
+  std::map<Indices, std::uint32_t> kinds_;
   std::map<std::string, std::uint32_t> tools_;
 };
 

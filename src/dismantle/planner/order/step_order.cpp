@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -153,7 +154,13 @@ class OrderProblem {
 class OrderSearch {
  public:
   OrderSearch(const OrderProblem& problem, const std::vector<OrderedStep>& steps, const KeepGoing& keep_going)
-      : problem_(problem), steps_(steps), keep_going_(keep_going) {}
+      : problem_(problem), steps_(steps), keep_going_(keep_going) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> classes;
+    for (const OrderedStep& step : steps)
+      class_of_.push_back(
+          classes.try_emplace({step.kind, step.direction}, static_cast<std::uint32_t>(classes.size())).first->second);
+    classes_ = classes.size();
+  }
 
   struct Found {
     double cost;
@@ -185,6 +192,7 @@ class OrderSearch {
   };
 
   /// The continuations of all states, the best first. @param equal_ones of a state that are examined: steps of one kind
+  /// and direction
   std::vector<Continuation> continuations(const std::vector<State>& beam, std::size_t equal_ones) {
     std::vector<Continuation> next;
     for (std::uint32_t i = 0; i < beam.size(); ++i) {
@@ -198,10 +206,9 @@ class OrderSearch {
         add(steps_[trace_[s.trace].second].followed_by);
         continue;
       }
-      examined_.assign(s.kinds_left.size(), 0);
+      examined_.assign(classes_, 0);
       for (const std::uint32_t k : s.available) {
-        if (examined_[steps_[k].kind] == equal_ones) continue;
-        ++examined_[steps_[k].kind];
+        if (examined_[class_of_[k]]++ >= equal_ones) continue;
         add(k);
       }
     }
@@ -238,7 +245,9 @@ class OrderSearch {
   const std::vector<OrderedStep>& steps_;
   const KeepGoing& keep_going_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> trace_;  // the place of the step before, and the step
-  std::vector<std::uint32_t> examined_;                         // steps of each kind
+  std::vector<std::uint32_t> class_of_;                         // of each step: its kind and direction
+  std::size_t classes_ = 0;
+  std::vector<std::size_t> examined_;  // of each class
   std::size_t work_ = 0;
 };
 

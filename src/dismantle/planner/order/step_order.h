@@ -12,7 +12,7 @@ namespace dismantle {
 struct OrderedStep {
   static constexpr std::uint32_t kNone = 0xffffffffu;  ///< No step.
 
-  std::uint32_t kind = 0;              ///< Equal for steps that can be described as one: equal components, moved alike.
+  std::uint32_t kind = 0;              ///< Equal for equal components.
   std::uint32_t direction = 0;         ///< Equal for equal directions of exit.
   int up = 0;                          ///< 1 if it leaves upwards, -1 downwards, 0 sideways.
   std::uint32_t tool = 0;              ///< Equal for equal tools; 0: none.
