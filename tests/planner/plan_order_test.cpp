@@ -44,7 +44,7 @@ Assembly wells(int count) {
     x.push_back(20.0 * k + 5);
   }
   x.push_back(x.back() + 5);
-  const auto block = scenes::box_block({{x, {-10, -5, 5, 10}, {-5, 0, 20}}},
+  const auto block = scenes::box_block({{x, {-10, -5, 5, 10}, {-5, 0, 6}}},
                                        [](int i, int j, int k) { return k == 0 || j != 1 || i % 2 == 0; });
   std::vector<Component> components{scenes::component("block", block)};
   for (int k = 0; k < count; ++k) {

@@ -74,8 +74,8 @@ TEST(StepPreference, TakesEqualComponentsTogether) {
   cases.add(small, {kAside});
   cases.add(cube(5), {kAside});
   cases.add(small, {kUp});
-  EXPECT_EQ(cases.order({StepPreference::Direction, StepPreference::Groups}), (Order{0, 1, 2}));
-  EXPECT_EQ(cases.order({StepPreference::Groups, StepPreference::Direction}), (Order{0, 2, 1}));
+  EXPECT_EQ(cases.order({StepPreference::Direction, StepPreference::Groups}), (Order{1, 0, 2}));
+  EXPECT_EQ(cases.order({StepPreference::Groups, StepPreference::Direction}), (Order{2, 0, 1}));
 }
 
 TEST(StepPreference, TurnsNothingOverWhileSomethingElseCanBeDone) {
