@@ -57,6 +57,8 @@ class BlockingTable {
 
   /// True if `fixed` blocks `moving` along `d`; components of one group always do.
   bool blocks(ComponentId moving, DirectionId d, ComponentId fixed);
+  /// The components whose bounds meet the volume that `moving` sweeps along `d`, ascending: no others block it.
+  const std::vector<ComponentId>& near(ComponentId moving, DirectionId d) { return row(moving, d).near; }
   /// A blocking component among `present`, if there is one; the same one as long as it is present.
   std::optional<ComponentId> any_blocker(ComponentId moving, DirectionId d, const ComponentSet& present);
   /// The blocking components among `present`, ascending; at most `enough` of them. May be called at the same time for

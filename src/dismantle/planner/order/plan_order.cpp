@@ -2,6 +2,7 @@
 #include "dismantle/planner/order/plan_order.h"
 
 #include "dismantle/core/contract.h"
+#include "dismantle/planner/order/step_relations.h"
 #include "dismantle/planner/precedence_graph.h"
 #include "dismantle/planner/search/exposure.h"
 #include "dismantle/surface/equal_shapes.h"
@@ -23,14 +24,7 @@ constexpr double kVertical = 0.2;
 /// A criterion counts as many times as much as the next one.
 constexpr double kMoreImportant = 10;
 
-constexpr std::uint32_t kNoStep = OrderedStep::kNone;
-
 using Indices = std::vector<std::uint32_t>;
-
-void add_unique(Indices& list, std::uint32_t index) {
-  const auto at = std::lower_bound(list.begin(), list.end(), index);
-  if (at == list.end() || *at != index) list.insert(at, index);
-}
 
 /// Numbers what makes steps equal.
 class StepKinds {
@@ -85,197 +79,6 @@ class StepKinds {
   std::map<std::string, std::uint32_t> tools_;
 };
 
-/// Orders the steps that take apart one body. Steps are numbered within it.
-class SectionOrder {
- public:
-  SectionOrder(const Plan& plan, const Indices& members, const ComponentSet& body, const PlanOrderContext& with,
-               Exposure& exposure)
-      : plan_(plan),
-        members_(members),
-        body_(body),
-        with_(with),
-        exposure_(exposure),
-        size_(diagonal(assembled_bounds(with.planned.assembly))),
-        step_of_(with.planned.size(), kNoStep) {
-    for (std::uint32_t i = 0; i < members.size(); ++i)
-      for (const ComponentId c : step(i).components) step_of_[c.value] = i;
-  }
-
-  /// The members in their best order; as they are, if the search was ended or the order cannot be validated.
-  Indices run(StepKinds& kinds, const OrderWeights& weights) {
-    std::vector<OrderedStep> steps;
-    steps.reserve(members_.size());
-    for (std::uint32_t i = 0; i < members_.size(); ++i) steps.push_back(kinds.describe(step(i)));
-    add_joints(steps);
-    add_passed(steps);
-    keep_stacks_together(steps, kinds);
-    if (weights.support > 0) add_supports(steps);
-    if (!with_.keep_going()) return members_;
-    const Indices order = best_order(steps, weights, with_.keep_going);
-    if (!is_valid(order)) return members_;
-    Indices ordered;
-    ordered.reserve(order.size());
-    for (const std::uint32_t i : order) ordered.push_back(members_[i]);
-    return ordered;
-  }
-
- private:
-  const PlanStep& step(std::uint32_t i) const { return plan_.steps[members_[i]]; }
-
-  /// A fastener comes before what it holds, and the parts of a stack one after another, where they do.
-  void add_joints(std::vector<OrderedStep>& steps) const {
-    for (const Joint& joint : plan_.joints) {
-      Indices stack;
-      for (const ComponentId c : joint.stack())
-        if (step_of_[c.value] != kNoStep) add_unique(stack, step_of_[c.value]);
-      for (std::size_t i = 1; i < stack.size(); ++i) add_unique(steps[stack[i]].before, stack[i - 1]);
-      const ComponentId first = joint.screw.valid() ? joint.screw : joint.nuts.front();
-      const std::uint32_t released = step_of_[first.value];
-      if (released == kNoStep) continue;
-      for (const ComponentId held : joint.held) {
-        const std::uint32_t after = step_of_[held.value];
-        if (after == kNoStep || after <= released) continue;
-        add_unique(steps[after].before, released);
-        add_unique(steps[after].held_by, released);
-      }
-    }
-  }
-
-  /// The parts of a stack that follow one another at once go on doing so, and equal stacks are of one kind.
-  void keep_stacks_together(std::vector<OrderedStep>& steps, StepKinds& kinds) const {
-    for (const Joint& joint : plan_.joints) {
-      Indices stack;
-      for (const ComponentId c : joint.stack())
-        if (step_of_[c.value] != kNoStep) add_unique(stack, step_of_[c.value]);
-      for (std::size_t i = 1; i < stack.size(); ++i)
-        if (stack[i] == stack[i - 1] + 1) steps[stack[i - 1]].followed_by = stack[i];
-    }
-    for (std::uint32_t first = 0; first < steps.size(); ++first) {
-      std::uint32_t last = first;
-      while (steps[last].followed_by != kNoStep) last = steps[last].followed_by;
-      if (last == first) continue;
-      Indices kinds_of_each;
-      for (std::uint32_t i = first; i <= last; ++i) {
-        kinds_of_each.push_back(steps[i].kind);
-        for (const std::uint32_t before : steps[i].before)
-          if (before < first) add_unique(steps[first].before, before);
-      }
-      const std::uint32_t kind = kinds.joined(kinds_of_each);
-      for (; first < last; ++first) steps[first].kind = kind;
-      steps[last].kind = kind;
-    }
-  }
-
-  /// What each step passes comes before it, and what has to be gone for it to be exposed.
-  void add_passed(std::vector<OrderedStep>& steps) {
-    const std::vector<std::vector<ComponentId>> passed = passed_by_each();
-    ComponentSet gone(with_.planned.size()), left = body_;
-    std::uint32_t last_resort = kNoStep;
-    for (std::uint32_t i = 0; i < steps.size() && with_.keep_going(); ++i) {
-      const auto opened_by = opening(i, left, gone);
-      for (const ComponentId c : passed[i]) add_unique(steps[i].before, step_of_[c.value]);
-      if (opened_by) {
-        for (const ComponentId c : *opened_by) add_unique(steps[i].before, step_of_[c.value]);
-      } else if (steps[i].held_by.empty()) {  // after all others; those before the previous one follow from that
-        for (std::uint32_t j = last_resort == kNoStep ? 0 : last_resort; j < i; ++j) add_unique(steps[i].before, j);
-        last_resort = i;
-      }
-      for (const ComponentId c : step(i).components) gone.insert(c);
-      left.erase(step(i).components);
-    }
-  }
-
-  /// The components that were removed before each step and lie in its way.
-  std::vector<std::vector<ComponentId>> passed_by_each() {
-    std::vector<DirectionId> directions;
-    for (std::uint32_t i = 0; i < members_.size(); ++i) directions.push_back(with_.table.add_direction(step(i).exit));
-    std::vector<std::vector<ComponentId>> passed(members_.size());
-    with_.executor.for_each_heavy(members_.size(), [&](std::size_t k) {
-      const auto i = static_cast<std::uint32_t>(k);
-      ComponentSet gone(with_.planned.size());
-      for (std::uint32_t j = 0; j < i; ++j)
-        for (const ComponentId c : step(j).components) gone.insert(c);
-      passed[i] = passed_by(step(i), directions[i], gone);
-    });
-    return passed;
-  }
-
-  std::vector<ComponentId> passed_by(const PlanStep& own, DirectionId direction, const ComponentSet& gone) {
-    std::vector<ComponentId> passed;
-    if (own.poses.empty()) {
-      for (const ComponentId c : own.components)
-        for (const ComponentId blocker : with_.table.blockers(c, direction, gone)) passed.push_back(blocker);
-      return passed;
-    }
-    const Aabb box = box_around_way(with_.planned.assembly, own, size_);
-    for (const ComponentId c : gone.members())
-      if (overlaps(box, assembled_bounds(with_.planned.assembly[c]))) passed.push_back(c);
-    return passed;
-  }
-
-  /// What had to be gone for a step to be made by somebody who reaches for it; nothing if it was the last resort.
-  std::optional<std::vector<ComponentId>> opening(std::uint32_t i, const ComponentSet& left, const ComponentSet& gone) {
-    const PlanStep& own = step(i);
-    if (with_.relations.fastener_of(own.components).valid()) return std::vector<ComponentId>{};
-    const bool is_one = own.components.size() == with_.table.groups().of(own.components.front()).size();
-    if (!is_one ||
-        (own.tier != PlanTier::Straight && own.tier != PlanTier::StraightTogether && own.tier != PlanTier::Helical))
-      return std::nullopt;
-    for (const ComponentId c : own.components)
-      if (exposure_.is_exposed(c, body_)) return std::vector<ComponentId>{};
-    std::optional<std::vector<ComponentId>> least;
-    for (const ComponentId c : own.components) {
-      auto found = exposure_.opened_by(c, left, gone);
-      if (found && (!least || found->size() < least->size())) least = std::move(found);
-    }
-    return least;
-  }
-
-  void add_supports(std::vector<OrderedStep>& steps) {
-    const DirectionId down = with_.table.add_direction({0, 0, -1});
-    for (std::uint32_t i = 0; i < steps.size(); ++i) {
-      bool stays = false;
-      for (const ComponentId c : step(i).components)
-        for (const ComponentId below : with_.table.blockers(c, down, body_)) {
-          if (step_of_[below.value] == i) continue;
-          stays |= step_of_[below.value] == kNoStep;
-          if (!stays) add_unique(steps[i].rests_on, step_of_[below.value]);
-        }
-      if (stays) steps[i].rests_on.clear();
-    }
-  }
-
-  /// True if each straight step is free with what is present now and was not when it was validated.
-  bool is_valid(const Indices& order) {
-    ComponentSet left = body_;
-    std::vector<bool> done(order.size());
-    for (const std::uint32_t i : order) {
-      const PlanStep& own = step(i);
-      bool passes_more = false;
-      for (std::uint32_t j = 0; j < i; ++j) passes_more |= !done[j];
-      if (passes_more && own.poses.empty()) {
-        if (!with_.keep_going()) return false;
-        const DirectionId direction = with_.table.add_direction(own.exit);
-        double way = 0;
-        for (const ComponentId c : own.components) way = std::max(way, with_.table.exit_distance(c, direction));
-        with_.validator.stand(left);
-        if (!with_.validator.try_straight(own.components, own.exit, way).free) return false;
-      }
-      done[i] = true;
-      left.erase(own.components);
-    }
-    return true;
-  }
-
-  const Plan& plan_;
-  const Indices& members_;
-  const ComponentSet& body_;
-  const PlanOrderContext& with_;
-  Exposure& exposure_;
-  double size_;
-  Indices step_of_;  // of each component: the step that removes it
-};
-
 /// Orders of the sections, one after another: that of a body, then those of the bodies that its steps remove.
 class PlanOrder {
  public:
@@ -297,9 +100,70 @@ class PlanOrder {
   void add(std::uint32_t body, const ComponentSet& components) {
     const auto found = members_.find(body);
     if (found == members_.end()) return;
-    const Indices own = SectionOrder(plan_, found->second, components, with_, exposure_).run(kinds_, weights_);
+    const Indices own = ordered({plan_, found->second, components});
     order_.insert(order_.end(), own.begin(), own.end());
     for (const std::uint32_t k : own) add(k, ComponentSet(with_.planned.size(), plan_.steps[k].components));
+  }
+
+  /// The members of a section in their best order; as they are, if the search was ended or the order cannot be
+  /// validated.
+  Indices ordered(const PlanSection& section) {
+    std::vector<OrderedStep> steps;
+    steps.reserve(section.size());
+    for (std::uint32_t i = 0; i < section.size(); ++i) steps.push_back(kinds_.describe(section.step(i)));
+    find_step_relations(section, with_, exposure_, weights_.support > 0, steps);
+    join_stacks(steps);
+    if (!with_.keep_going()) return section.members;
+    const Indices order = best_order(steps, weights_, with_.keep_going);
+    if (!is_valid(section, order)) return section.members;
+    Indices ordered;
+    ordered.reserve(order.size());
+    for (const std::uint32_t i : order) ordered.push_back(section.members[i]);
+    return ordered;
+  }
+
+  /// Has all that is before one of the steps that follow one another at once before the first of them, and makes equal
+  /// stacks one kind.
+  void join_stacks(std::vector<OrderedStep>& steps) {
+    for (std::uint32_t first = 0; first < steps.size(); ++first) {
+      std::uint32_t last = first;
+      while (steps[last].followed_by != OrderedStep::kNone) last = steps[last].followed_by;
+      if (last == first) continue;
+      Indices kinds, before;
+      for (std::uint32_t i = first; i <= last; ++i) {
+        kinds.push_back(steps[i].kind);
+        for (const std::uint32_t j : steps[i].before)
+          if (j < first) before.push_back(j);
+      }
+      std::sort(before.begin(), before.end());
+      before.erase(std::unique(before.begin(), before.end()), before.end());
+      steps[first].before = std::move(before);
+      const std::uint32_t kind = kinds_.joined(std::move(kinds));
+      for (std::uint32_t i = first; i <= last; ++i) steps[i].kind = kind;
+      first = last;
+    }
+  }
+
+  /// True if each straight step is free with what is present now and was not when it was validated.
+  bool is_valid(const PlanSection& section, const Indices& order) const {
+    ComponentSet left = section.body;
+    std::vector<bool> done(order.size());
+    for (const std::uint32_t i : order) {
+      const PlanStep& own = section.step(i);
+      bool passes_more = false;
+      for (std::uint32_t j = 0; j < i; ++j) passes_more |= !done[j];
+      if (passes_more && own.poses.empty()) {
+        if (!with_.keep_going()) return false;
+        const DirectionId direction = with_.table.add_direction(own.exit);
+        double way = 0;
+        for (const ComponentId c : own.components) way = std::max(way, with_.table.exit_distance(c, direction));
+        with_.validator.stand(left);
+        if (!with_.validator.try_straight(own.components, own.exit, way).free) return false;
+      }
+      done[i] = true;
+      left.erase(own.components);
+    }
+    return true;
   }
 
   const Plan& plan_;

@@ -97,7 +97,9 @@ std::vector<FacePoint> chosen_points(const TriangleMesh& mesh) {
 }  // namespace
 
 Exposure::Exposure(const Assembly& assembly, Span<const ShapeFeatures> features)
-    : assembly_(assembly), spheres_(sphere_tree(features)), tested_(assembly.components.size()) {}
+    : assembly_(assembly), spheres_(sphere_tree(features)), tested_(assembly.components.size()) {
+  for (const Component& component : assembly.components) meshes_.try_emplace(component.mesh.get());
+}
 
 std::vector<Exposure::Sample> Exposure::samples_of(ComponentId c) const {
   const Component& component = assembly_[c];
@@ -216,11 +218,11 @@ void Exposure::for_each_near(Vec3 point, Vec3 direction, const Visit& visit) con
 bool Exposure::meets(Vec3 point, Vec3 direction, ComponentId c) {
   const Component& component = assembly_[c];
   if (component.mesh->faces.empty()) return false;
-  std::unique_ptr<SurfaceTree>& tree = meshes_[component.mesh.get()];
-  if (!tree) tree = std::make_unique<SurfaceTree>(*component.mesh);
+  RayTree& rays = meshes_.at(component.mesh.get());
+  std::call_once(rays.once, [&] { rays.tree.emplace(*component.mesh); });
   const RigidTransform mesh_from_assembly = inverse(component.assembly_from_mesh);
-  return !tree->for_each_hit(mesh_from_assembly * point, mesh_from_assembly.rotation * direction,
-                             [](std::uint32_t, RayHit) { return false; });
+  return !rays.tree->for_each_hit(mesh_from_assembly * point, mesh_from_assembly.rotation * direction,
+                                  [](std::uint32_t, RayHit) { return false; });
 }
 
 }  // namespace dismantle

@@ -9,7 +9,7 @@
 #include "dismantle/surface/surface_tree.h"
 
 #include <cstdint>
-#include <memory>
+#include <mutex>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -19,7 +19,8 @@ namespace dismantle {
 /// Tells the components that lie open to the outside in the assembled state from those that others enclose. A component
 /// is exposed if a quarter of the light that comes from all around reaches some point of its surface, as far as points
 /// and rays sampled tell (the openness of ambient occlusion: Zhukov, Iones, Kronin 1998). It may be free to move and
-/// not be exposed: a small part that passes through an opening of its housing.
+/// not be exposed: a small part that passes through an opening of its housing. May be asked about different components
+/// at the same time.
 class Exposure {
  public:
   /// Both must outlive this. @param features of every component
@@ -56,9 +57,14 @@ class Exposure {
   bool meets(Vec3 point, Vec3 direction, ComponentId c);
 
   const Assembly& assembly_;
-  SphereTree spheres_;                                                            // of all components
-  std::unordered_map<const TriangleMesh*, std::unique_ptr<SurfaceTree>> meshes_;  // those that a ray was tested with
-  std::vector<Tested> tested_;                                                    // of each component
+  SphereTree spheres_;  // of all components
+  /// The tree of a mesh, once a ray is tested with it.
+  struct RayTree {
+    std::once_flag once;
+    std::optional<SurfaceTree> tree;
+  };
+  std::unordered_map<const TriangleMesh*, RayTree> meshes_;
+  std::vector<Tested> tested_;  // of each component
 };
 
 }  // namespace dismantle
