@@ -187,7 +187,8 @@ class OrderSearch {
 
  private:
   struct Continuation {
-    double bound, cost;
+    std::int64_t bound;  // of the cost of the whole order [kSameCost], so that equal ones compare as equal
+    double cost;
     std::uint32_t state, step;
   };
 
@@ -200,7 +201,7 @@ class OrderSearch {
       const auto add = [&](std::uint32_t k) {
         ++work_;
         const double cost = s.cost + problem_.cost_after(s, k);
-        next.push_back({cost + problem_.least_after(s, k), cost, i, k});
+        next.push_back({std::llround((cost + problem_.least_after(s, k)) / kSameCost), cost, i, k});
       };
       if (s.trace != kNone && steps_[trace_[s.trace].second].followed_by != kNone) {
         add(steps_[trace_[s.trace].second].followed_by);
@@ -213,8 +214,7 @@ class OrderSearch {
       }
     }
     std::sort(next.begin(), next.end(), [](const Continuation& a, const Continuation& b) {
-      if (std::abs(a.bound - b.bound) > kSameCost) return a.bound < b.bound;
-      return std::tie(a.state, a.step) < std::tie(b.state, b.step);
+      return std::tie(a.bound, a.state, a.step) < std::tie(b.bound, b.state, b.step);
     });
     return next;
   }
