@@ -191,8 +191,7 @@ TEST(StepOrder, KeepsTogetherWhatFollowsAtOnce) {
   weights.groups = 1;
   weights.direction = 1e-3;
   const Order order = best_order(steps, weights, kAlways);
-  for (std::size_t i = 0; i < order.size(); ++i)
-    EXPECT_TRUE(order[i] % 3 != 0 || order.at(i + 1) == order[i] + 1);
+  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_TRUE(order[i] % 3 != 0 || order.at(i + 1) == order[i] + 1);
   EXPECT_NEAR(order_cost(steps, weights, order), 3, 0.1);
 }
 

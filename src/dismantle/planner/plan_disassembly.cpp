@@ -48,8 +48,7 @@ std::vector<std::optional<Fastener>> fasteners_of(const Assembly& assembly, cons
 class Planner {
  public:
   Planner(const Assembly& assembly, const PairStates& pairs, const PlanOptions& options)
-      : assembly_(assembly),
-        options_(options),
+      : options_(options),
         count_(assembly.components.size()),
         time_(options.time_limit),
         groups_(groups_of(assembly, options)),
@@ -335,7 +334,6 @@ class Planner {
     add_overlaps(plan_.staying, present);
   }
 
-  const Assembly& assembly_;
   const PlanOptions& options_;
   std::size_t count_;
   ///@{ For keep_going(), which constructors of the members below call already.

@@ -16,8 +16,8 @@ const std::map<std::string, StepPreference>& step_preferences();
 
 /// Criteria of a user, the most important first.
 struct ChosenPreferences {
-  std::vector<StepPreference> criteria;
-  std::vector<double> weights;  ///< Of each; empty if none was given.
+  std::vector<StepPreference> criteria;  ///< Each once.
+  std::vector<double> weights;           ///< Of each; empty if none was given.
 };
 
 /// Reads criteria by their names, each with a weight above 0 or without: "groups", "groups=2.5". If some have weights,
