@@ -240,6 +240,10 @@ TEST_F(CliPlan, OrdersStepsByThePreferencesGiven) {
   EXPECT_EQ(order("direction"), R"([["shelf"],["cup"]])");
   EXPECT_EQ(order("support groups"), R"([["cup"],["shelf"]])");
   expect_error("plan parts -o all.path.json --prefer beauty", 2, "beauty");
+  EXPECT_EQ(order("groups=1 support=8 tools loose=0.1"), order("support groups tools loose"));
+  expect_error("plan parts -o all.path.json --prefer beauty=2", 2, "'beauty' is not one of");
+  expect_error("plan parts -o all.path.json --prefer groups=0", 2, "'0' is not a number above 0");
+  expect_error("plan parts -o all.path.json --prefer groups tools groups=2", 2, "names a criterion twice");
 }
 
 TEST_F(CliPlan, ExitsWith1AndSaysWhatBlocksIfNotAllCanBeRemoved) {

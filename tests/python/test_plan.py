@@ -48,8 +48,13 @@ def test_orders_steps_by_preferences(states):
     assert usual == [s.components for s in dismantle.plan(states).steps]
     preferred = dismantle.plan(states, prefer=["groups", "support"])
     assert preferred.complete and len(preferred.steps) == len(usual)
-    with pytest.raises(dismantle.UsageError, match="there is no such preference"):
-        dismantle.plan(states, prefer=["beauty"])
+    weighted = dismantle.plan(states, prefer=["support=1", "groups=10", "loose=0.5"])
+    assert weighted.complete and len(weighted.steps) == len(usual)
+    for wrong in ("beauty", "groups=0", "groups="):
+        with pytest.raises(dismantle.UsageError, match="there is no such preference"):
+            dismantle.plan(states, prefer=[wrong])
+    with pytest.raises(dismantle.UsageError, match="names it twice"):
+        dismantle.plan(states, prefer=["groups", "groups=2"])
 
 
 def test_ends_early_at_its_time_limit_or_when_cancelled(states):

@@ -91,7 +91,7 @@ TEST_F(ServerSearch, PlansWithWhatIsPreferred) {
     });
     EXPECT_EQ(state["guide"]["moves"].size(), 2u);
   }
-  for (const Json& wrong : {Json("groups"), Json{"beauty"}, Json{"groups", "groups"}, Json{1}})
+  for (const Json& wrong : {Json("groups"), Json{"beauty"}, Json{"groups", "groups"}, Json{"groups=0"}, Json{1}})
     EXPECT_FALSE(client.command("plan", {{"prefer", wrong}})["ok"]) << wrong;
 }
 
