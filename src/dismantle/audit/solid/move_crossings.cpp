@@ -45,8 +45,7 @@ bool is_joined(const DepthContext& context, const MovePair& pair) {
 /// The points to follow on one side of a pair, and the hole for them; empty where its depth tells enough.
 FollowedSide follow_side(DepthContext& context, const MovePair& pair, std::uint32_t points, std::uint32_t surface) {
   const SolidBody &body = *context.bodies[points], &other = *context.bodies[surface];
-  const double size = std::min(body.surface().node(0).radius, other.surface().node(0).radius);
-  const double spacing = 2 * kFollowedSpacing * size, tolerance = context.path.tolerance;
+  const double spacing = followed_spacing(body, other), tolerance = context.path.tolerance;
   FollowedSide side;
   side.until_apart = !needs_crossing_test(body, other, tolerance);
   const bool joined = is_joined(context, pair);

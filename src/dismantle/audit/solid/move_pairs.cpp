@@ -15,6 +15,16 @@ bool apart(const DepthPair& pair, const RigidTransform& a_from_b, double margin)
   return true;
 }
 
+/// True if both components are sheets, or have walls thinner than twice their allowance: what is near them may be on
+/// either side, so that they have been apart only where they are further apart than the tolerance.
+bool are_thin(const DepthContext& context, const MovePair& pair) {
+  const double spacing = followed_spacing(*pair.pair.a, *pair.pair.b);
+  const auto is_thin = [&](const SolidBody& body) {
+    return !body.solid() || context.walls.has_thin_wall(body, 2 * pair.allowed, spacing);
+  };
+  return is_thin(*pair.pair.a) && is_thin(*pair.pair.b);
+}
+
 /// True if the sphere around b meets the box of a at some time; always for a pair that has still to come apart.
 bool comes_near(const DepthContext& context, const MovePair& pair, const std::vector<MotionSegment>& segments) {
   const auto known = context.ledger.find(pair.key());
@@ -77,9 +87,16 @@ bool part_move_pairs(DepthContext& context, MovePairs& move, double progress_fro
     pair.parted = count;
     if (!pair.joined) return;
     const bool turns = context.ledger.at(pair.key()).pair.turns;
-    const double margin = turns ? pair.allowed : context.slack;
-    for (std::uint32_t k = 0; k < count && pair.parted == count; ++k)
-      if (apart(pair.pair, pair.pair.motion.motions[k].start, margin)) pair.parted = k;
+    double margin = turns ? pair.allowed : context.slack;
+    for (std::uint32_t k = 0; k < count && pair.parted == count; ++k) {
+      const RigidTransform& at = pair.pair.motion.motions[k].start;
+      if (!apart(pair.pair, at, margin)) continue;
+      if (margin < context.path.tolerance && are_thin(context, pair)) {
+        margin = context.path.tolerance;
+        if (!apart(pair.pair, at, margin)) continue;
+      }
+      pair.parted = k;
+    }
   });
   if (!completed) return false;
   for (const MovePair& pair : move.pairs)

@@ -5,6 +5,7 @@
 #include "dismantle/audit/solid/thin_walls.h"
 #include "dismantle/core/span.h"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -21,6 +22,10 @@ struct FollowedPoint {
 
 /// Part of the diagonal of the smaller of two components that points of their surfaces are apart from each other.
 inline constexpr double kFollowedSpacing = 1.0 / 32;
+/// The largest distance of neighbouring points that are followed of two components [mm].
+inline double followed_spacing(const SolidBody& a, const SolidBody& b) {
+  return 2 * kFollowedSpacing * std::min(a.surface().node(0).radius, b.surface().node(0).radius);
+}
 /// Largest number of points of one component.
 inline constexpr std::size_t kMaxFollowed = 4096;
 
