@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/order/plan_order.h"
 
-#include "dismantle/audit/audit_path.h"
-#include "dismantle/planner/plan_path.h"
-#include "tests/planner/plan_scenes.h"
+#include "tests/planner/planned.h"
 #include "tests/support/joint_scenes.h"
 
 #include <gtest/gtest.h>
@@ -13,27 +11,8 @@
 namespace dismantle {
 namespace {
 
-using Names = std::vector<std::string>;
-
-struct Planned {
-  scenes::PlanScene scene;
-  Plan plan;
-
-  explicit Planned(Assembly assembly, const PlanOptions& options = {})
-      : scene(scenes::plan_scene(std::move(assembly), 0.05)),
-        plan(plan_disassembly(scene.assembly, scene.pairs, options)) {}
-
-  Names steps() const {
-    Names all;
-    for (const PlanStep& step : plan.steps) {
-      all.emplace_back();
-      for (const ComponentId c : step.components)
-        all.back() += (all.back().empty() ? "" : "+") + scene.assembly[c].name;
-    }
-    return all;
-  }
-  bool holds() const { return audit_path(scene.assembly, plan_path(scene.assembly, scene.pairs, plan)).holds(); }
-};
+using scenes::Names;
+using scenes::Planned;
 
 /// A block with wells that are open upwards, in each of them a flat part, "low", under a taller one, "high": the
 /// smaller one comes first wherever it is free.
