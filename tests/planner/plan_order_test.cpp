@@ -50,7 +50,7 @@ TEST(PlanOrder, IsThatOfTheUser) {
   const Planned planned(wells(4), options);
   std::string kinds;
   for (const std::string& name : planned.steps()) kinds += name.front();
-  EXPECT_NE(kinds, "hhhhllll") << "one direction whatever the order: nothing to gain";
+  EXPECT_NE(kinds, "hhhhllll") << "all steps have one direction, so no order is better";
   EXPECT_TRUE(planned.holds());
 }
 

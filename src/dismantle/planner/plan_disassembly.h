@@ -42,7 +42,8 @@ struct PlanOptions {
   /// Criteria for choosing among single components that can be removed straight next, the most important first. Empty:
   /// the first that is found, those in the direction of the previous step first, which is faster.
   std::vector<StepPreference> preferences{};
-  /// What each of them costs in the order of all steps (OrderWeights); empty: ten times as much as the next one.
+  /// The weight of each preference in the order of all steps (OrderWeights); empty: each counts ten times as much as
+  /// the next.
   std::vector<double> preference_weights{};
   /// For each component that stays, an overlap is searched for by which it would come out, up to this much more than
   /// what is allowed (OverlapSearch) [mm]; 0: none.

@@ -86,8 +86,7 @@ class PlanOrder {
       : plan_(plan),
         with_(with),
         kinds_(with.planned.assembly, with.fasteners),
-        exposure_(with.planned.assembly, with.planned.features),
-        weights_(with.weights) {
+        exposure_(with.planned.assembly, with.planned.features) {
     for (std::uint32_t k = 0; k < plan.steps.size(); ++k) members_[plan.steps[k].part_of].push_back(k);
   }
 
@@ -111,10 +110,10 @@ class PlanOrder {
     std::vector<OrderedStep> steps;
     steps.reserve(section.size());
     for (std::uint32_t i = 0; i < section.size(); ++i) steps.push_back(kinds_.describe(section.step(i)));
-    find_step_relations(section, with_, exposure_, weights_.support > 0, steps);
+    find_step_relations(section, with_, exposure_, with_.weights.support > 0, steps);
     join_stacks(steps);
     if (!with_.keep_going()) return section.members;
-    const Indices order = best_order(steps, weights_, with_.keep_going);
+    const Indices order = best_order(steps, with_.weights, with_.keep_going);
     if (!is_valid(section, order)) return section.members;
     Indices ordered;
     ordered.reserve(order.size());
@@ -170,7 +169,6 @@ class PlanOrder {
   const PlanOrderContext& with_;
   StepKinds kinds_;
   Exposure exposure_;
-  OrderWeights weights_;
   std::map<std::uint32_t, Indices> members_;  // steps by what they take apart
   Indices order_;
 };

@@ -19,7 +19,7 @@ namespace dismantle {
 /// @param weights of each; empty: each counts ten times as much as the next
 OrderWeights order_weights(const std::vector<StepPreference>& preferences, const std::vector<double>& weights);
 
-/// What the order of a plan is chosen with.
+/// The inputs and services of in_good_order().
 struct PlanOrderContext {
   const PlannedAssembly& planned;                         ///< The assembly.
   const std::vector<std::optional<Fastener>>& fasteners;  ///< find_fasteners(), or empty.

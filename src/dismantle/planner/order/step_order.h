@@ -8,7 +8,7 @@
 
 namespace dismantle {
 
-/// What the place of a step in an order is judged by.
+/// A step, with the properties and constraints that an order of steps is judged by.
 struct OrderedStep {
   static constexpr std::uint32_t kNone = 0xffffffffu;  ///< No step.
 

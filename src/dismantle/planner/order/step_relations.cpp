@@ -79,7 +79,7 @@ class RelationSearch {
     }
   }
 
-  /// What each step passes comes before it, and what has to be gone for it to be exposed.
+  /// Adds the steps that remove obstacles from the way of each step, and those that expose its components.
   void add_passed(std::vector<OrderedStep>& steps) {
     for (std::uint32_t i = 0; i < section_.size(); ++i)
       directions_.push_back(with_.table.add_direction(section_.step(i).exit));
@@ -119,7 +119,7 @@ class RelationSearch {
   }
 
  private:
-  /// What a step needs.
+  /// The prerequisites of a step.
   struct Needs {
     Indices steps;  // that come before it
     bool is_last_resort = false;
@@ -175,7 +175,8 @@ class RelationSearch {
     return near;
   }
 
-  /// What had to be gone for a step to be made by somebody who reaches for it; nothing if it was the last resort.
+  /// The components whose removal exposes those of a step; nothing if the step was made although they are enclosed, or
+  /// is a last resort anyway: curved, or of several components.
   std::optional<std::vector<ComponentId>> opening(const PlanStep& own, const ComponentSet& left,
                                                   const ComponentSet& gone) {
     if (with_.relations.fastener_of(own.components).valid()) return std::vector<ComponentId>{};

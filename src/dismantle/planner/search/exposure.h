@@ -28,8 +28,8 @@ class Exposure {
 
   /// True if a component is exposed among `present`. One that was exposed among others counts as exposed.
   bool is_exposed(ComponentId c, const ComponentSet& present);
-  /// Components of `gone` without which `c` is exposed among `present`, whatever others of them are there: few of them,
-  /// not always the fewest. Nothing if it is not exposed.
+  /// A subset of `gone` whose removal is enough to expose `c` among `present`: small, but not always the smallest.
+  /// Nothing if `c` is not exposed even without all of `gone`.
   std::optional<std::vector<ComponentId>> opened_by(ComponentId c, const ComponentSet& present,
                                                     const ComponentSet& gone);
 
