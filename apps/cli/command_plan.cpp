@@ -11,6 +11,7 @@
 #include "dismantle/planner/order/step_order.h"
 #include "dismantle/planner/plan_allowing_overlaps.h"
 #include "dismantle/planner/plan_path.h"
+#include "dismantle/planner/step_margin.h"
 #include "dismantle/planner/step_preference.h"
 
 #include <fmt/format.h>
@@ -122,6 +123,8 @@ std::size_t removed_count(const Plan& plan) {
 
 /// The least time limit of a plan, so that one without time left reports that it ran out of time [s].
 constexpr double kLeastTime = 1e-3;
+/// Share of a time limit that is kept for margins.
+constexpr double kShareOfMargins = 0.2;
 
 /// The remaining time of a limit that counts from the start of the command [s]; 0 if there is no limit.
 double time_left(double limit, std::chrono::steady_clock::time_point begun) {
@@ -156,7 +159,6 @@ Result<ExitCode> run(const PlanCommand& command) {
     return Error{ErrorKind::Usage, "--prefer cannot be followed (it names a criterion twice); name each once"};
   options.preferences = chosen->criteria;
   options.preference_weights = chosen->weights;
-  options.margins = command.margins;
   options.fasteners = command.fasteners;
   options.flexible = choices->flexible;
   options.overlap_limit = command.allow_overlap > 0 ? command.allow_overlap : default_overlap_limit(*assembly);
@@ -168,7 +170,7 @@ Result<ExitCode> run(const PlanCommand& command) {
   options.engine.prepared = CertificateEngine(*assembly, *states, options.engine).surfaces();
   const auto make_plan = [&] {
     options.together = choices->groups.of_several();
-    options.time_limit = time_left(command.time_limit, begun);
+    options.time_limit = time_left((command.margins ? 1 - kShareOfMargins : 1) * command.time_limit, begun);
     return command.allow_overlap > 0 ? plan_allowing_overlaps(*assembly, *states, options)
                                      : AllowingPlan{plan_disassembly(*assembly, *states, options), *states};
   };
@@ -184,6 +186,13 @@ Result<ExitCode> run(const PlanCommand& command) {
       *choices = first_choices;
     }
   }
+  if (command.margins)
+    find_margins(
+        *assembly, found.pairs, options.engine,
+        [&](std::string_view stage, double share) {
+          return options.engine.keep_going() && report_progress(options.progress, stage, share);
+        },
+        found.plan);
   found.plan.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - planning).count();
   const Plan& plan = found.plan;
   const Path path = plan_path(*assembly, found.pairs, plan);

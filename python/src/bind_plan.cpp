@@ -5,6 +5,7 @@
 #include "dismantle/files/atomic_file.h"
 #include "dismantle/planner/explanation.h"
 #include "dismantle/planner/plan_path.h"
+#include "dismantle/planner/step_margin.h"
 #include "dismantle/planner/step_preference.h"
 #include "python/src/path_object.h"
 
@@ -56,7 +57,6 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
   options.targets = components_of(*states->assembly, targets);
   options.fixed = components_of(*states->assembly, fixed);
   options.time_limit = time_limit;
-  options.margins = margins;
   if (fasteners != "first" && fasteners != "any")
     raise_usage("the plan cannot take fasteners '" + fasteners + "' (there is no such order); give 'first' or 'any'");
   options.fasteners = fasteners == "any" ? FastenerOrder::Ignored : FastenerOrder::First;
@@ -71,7 +71,11 @@ PlanView plan(const CheckedHolder& states, const py::object& targets, const py::
     if (std::find(options.fixed.begin(), options.fixed.end(), c) != options.fixed.end())
       raise_usage("'" + (*states->assembly)[c].name +
                   "' cannot be removed (it is both target and fixed); leave out one of the two");
-  PlanView view{states, without_gil([&] { return plan_disassembly(*states->assembly, states->pairs, options); })};
+  PlanView view{states, without_gil([&] {
+                  Plan found = plan_disassembly(*states->assembly, states->pairs, options);
+                  if (margins) find_margins(*states->assembly, states->pairs, options.engine, options.progress, found);
+                  return found;
+                })};
   watched.finish();
   return view;
 }

@@ -43,8 +43,8 @@ TEST_F(InstructionNamesTest, ShortensLongNamesInTitlesAndNumbersThemInText) {
   name(longest, "lid", "b\u00fc" + longest);
   const InstructionNames names(assembly, bill, {});
   EXPECT_EQ(names.of(ComponentId(0)), "item 1");
-  EXPECT_EQ(names.in_title(ComponentId(0)), "B18.3.1M - 10 x 1.5 x 60 Hex SHC\u2026 (item 1)");
-  EXPECT_EQ(names.item_in_title(2), "b\u00fcB18.3.1M - 10 x 1.5 x 60 Hex S\u2026 (item 3)");
+  EXPECT_EQ(names.in_title(ComponentId(0)), "B18.3.1M - 10 x 1.5 \u2026HCS -- 60NHX (item 1)");
+  EXPECT_EQ(names.item_in_title(2), "b\u00fcB18.3.1M - 10 x 1.\u2026HCS -- 60NHX (item 3)");
   EXPECT_EQ(names.in_list(0), longest);
 }
 

@@ -138,11 +138,11 @@ TEST(WorkInstructions, WarnOfSeveralAtOnceAndDeclareOverlaps) {
   EXPECT_EQ(made.steps[0].title, "Remove lid and 2 \u00d7 bolt together");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Warning), "Remove these 3 parts as a unit.\n");
   EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
-            "The CAD models of lid and base overlap by 0.05 mm: press fit, thread, or an error of the model.\n");
+            "lid overlaps base by 0.05 mm: press fit, thread, or an error of the model.\n");
 
   pairs.pairs[0].state = PairState::Free;
   EXPECT_EQ(said(written(scenes::bolted_lid(), pairs, path).steps[0], InstructionNote::Kind::Overlap),
-            "Collision between lid and base is not checked until they are apart.\n");
+            "lid and base: collision is not checked until they are apart.\n");
 }
 
 TEST(WorkInstructions, CountEqualOverlapsAndNameTheProduct) {
@@ -154,14 +154,12 @@ TEST(WorkInstructions, CountEqualOverlapsAndNameTheProduct) {
   options.product = "vice";
   const WorkInstructions made = written(scenes::bolted_lid(), pairs, scenes::bolted_lid_path(), options);
   EXPECT_EQ(made.title, "Disassembly of vice");
-  EXPECT_EQ(
-      said(made.steps[0], InstructionNote::Kind::Overlap),
-      "The CAD models of 2 \u00d7 bolt and lid overlap by 0.05 mm: press fit, thread, or an error of the model.\n");
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Overlap),
+            "2 \u00d7 bolt overlap lid by 0.05 mm: press fit, thread, or an error of the model.\n");
   pairs.pairs[2].depth = 0.06;
   EXPECT_EQ(
       said(written(scenes::bolted_lid(), pairs, scenes::bolted_lid_path()).steps[0], InstructionNote::Kind::Overlap),
-      "The CAD models of 2 \u00d7 bolt and lid overlap by up to 0.06 mm: press fit, thread, or an error of the "
-      "model.\n");
+      "2 \u00d7 bolt overlap lid by up to 0.06 mm: press fit, thread, or an error of the model.\n");
 }
 
 TEST(WorkInstructions, CountWhatIsUnsupported) {

@@ -219,43 +219,6 @@ TEST(PlanDisassembly, TakesTheAssemblyApartBeforeWhatCameOutAsOne) {
   EXPECT_TRUE(audit_path(assembly, plan_path(assembly, scene.pairs, plan), {}).holds());
 }
 
-TEST(PlanDisassembly, FindsTheMarginsOfSteps) {
-  // A drawer with 0.3 and 0.5 mm of room at its sides, and a post that it passes at 0.12 mm far out.
-  const Assembly desk = scenes::assembly({scenes::component("base", scenes::box({-20, -2, -2}, {60, 30, 0})),
-                                          scenes::component("left", scenes::box({-20, -2, 0}, {20, -0.3, 10})),
-                                          scenes::component("right", scenes::box({-20, 20.5, 0}, {20, 22, 10})),
-                                          scenes::component("back", scenes::box({-22, -2, 0}, {-20, 22, 30})),
-                                          scenes::component("top", scenes::box({-22, -2, 10}, {20, 22, 12})),
-                                          scenes::component("post", scenes::box({40, 20.12, 0}, {40.05, 22, 10})),
-                                          scenes::component("drawer", scenes::box({-19, 0, 0}, {19, 20, 9}))});
-  PlanOptions options;
-  options.margins = true;
-  options.targets = ids(desk, {"drawer"});
-  for (const bool with_post : {false, true}) {
-    const Assembly assembly = with_post ? desk : scenes::without(desk, ids(desk, {"post"}));
-    options.targets = ids(assembly, {"drawer"});
-    options.fixed.clear();
-    for (std::uint32_t c = 0; c < assembly.components.size(); ++c)
-      if (ComponentId(c) != options.targets[0]) options.fixed.push_back(ComponentId(c));
-    const Plan plan = plan_of(assembly, options);
-    ASSERT_EQ(plan.steps.size(), 1u);
-    EXPECT_EQ(plan.steps[0].exit, (Vec3{1, 0, 0}));
-    ASSERT_TRUE(plan.steps[0].margin.has_value());
-    EXPECT_NEAR(plan.steps[0].margin->margin, with_post ? 0.06 : 0.15, 0.01);
-    EXPECT_EQ(plan.steps[0].margin->nearest, *assembly.find(with_post ? "post" : "left"));
-  }
-  options = {};
-  const Plan without_margins = plan_of(scenes::stack_in_tube(2), options);
-  for (const PlanStep& step : without_margins.steps) EXPECT_FALSE(step.margin.has_value());
-  options.margins = true;
-  const Plan stack = plan_of(scenes::stack_in_tube(2), options);
-  for (const PlanStep& step : stack.steps) {  // touch all that is there
-    ASSERT_TRUE(step.margin.has_value());
-    EXPECT_FALSE(step.margin->nearest.valid());
-    EXPECT_GT(step.margin->margin, 1);
-  }
-}
-
 TEST(PlanDisassembly, TakesTheFewestOutForATarget) {
   const int count = 7;
   const Assembly stack = scenes::stack_in_tube(count);

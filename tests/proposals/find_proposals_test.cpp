@@ -69,6 +69,28 @@ TEST(FindProposals, TakesABoardWithWhatTouchesNothingElse) {
   EXPECT_EQ(std::count(all.begin(), all.end(), "case") + std::count(all.begin(), all.end(), "post"), 0);
 }
 
+TEST(FindProposals, TakesSmallClustersOfSolidsOnABoardAlong) {
+  std::vector<Component> components{scenes::component("sheet", scenes::box({0, 0, 0}, {100, 60, 1.6}))};
+  for (int k = 0; k < 12; ++k)
+    components.push_back(
+        scenes::component("chip " + std::to_string(k), scenes::box({8.0 * k + 1, 20, 1.5}, {8.0 * k + 5, 25, 4})));
+  // A body with its leads: the body does not touch the sheet.
+  components.push_back(scenes::component("body", scenes::box({10, 40, 2}, {16, 44, 4})));
+  for (const double x : {10.0, 15.0})
+    components.push_back(scenes::component("lead", scenes::box({x, 39, 1.5}, {x + 1, 41, 2.5})));
+  // A tower of two, too large to be soldered on.
+  components.push_back(scenes::component("block", scenes::box({30, 35, 1.6}, {60, 55, 20})));
+  components.push_back(scenes::component("roof", scenes::box({30, 35, 20}, {60, 55, 22})));
+  const Assembly assembly = scenes::assembly(std::move(components));
+  const std::vector<Proposal> found = proposals_for(assembly);
+  ASSERT_EQ(found.size(), 1u);
+  const std::vector<std::string> all = names(assembly, found[0].components);
+  EXPECT_EQ(all.size(), 16u);
+  EXPECT_EQ(std::count(all.begin(), all.end(), "lead"), 2);
+  EXPECT_EQ(std::count(all.begin(), all.end(), "body"), 1);
+  EXPECT_EQ(std::count(all.begin(), all.end(), "block") + std::count(all.begin(), all.end(), "roof"), 0);
+}
+
 TEST(FindProposals, GoesByTheNamesOfSubAssembliesAndByProductsOfSeveralSolids) {
   std::vector<Component> components;
   for (int k = 0; k < 9; ++k)

@@ -11,6 +11,8 @@ namespace {
 
 /// Longer names are not repeated in running text, and shortened in titles [characters].
 constexpr std::size_t kMaxLength = 32;
+/// Of a shortened name, as many characters of its end are shown.
+constexpr std::size_t kEndLength = 12;
 /// Maximum number of names in a list; the rest is counted.
 constexpr std::size_t kMaxNames = 6;
 constexpr const char* kEllipsis = "\u2026";
@@ -27,12 +29,21 @@ bool is_long(const std::string& name) {
   return character_count(name) > kMaxLength;
 }
 
-/// The first characters of a long name and an ellipsis; a shorter name as it is.
+/// The byte at which a character begins. @pre index < character_count(text)
+std::size_t begin_of_character(const std::string& text, std::size_t index) {
+  std::size_t at = 0;
+  for (std::size_t passed = 0; passed < index || !begins_character(text[at]); ++at)
+    passed += begins_character(text[at]);
+  return at;
+}
+
+/// The first and the last characters of a long name, which often tell the variant, and an ellipsis in between; a
+/// shorter name as it is.
 std::string shortened(const std::string& name) {
   if (!is_long(name)) return name;
-  std::size_t characters = 0, end = 0;
-  while (characters < kMaxLength || !begins_character(name[end])) characters += begins_character(name[end++]) ? 1 : 0;
-  return name.substr(0, end) + kEllipsis;
+  const std::size_t first = kMaxLength - kEndLength;
+  return name.substr(0, begin_of_character(name, first)) + kEllipsis +
+         name.substr(begin_of_character(name, character_count(name) - kEndLength));
 }
 
 std::string number_of(std::size_t item) {

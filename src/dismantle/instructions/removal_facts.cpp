@@ -27,6 +27,10 @@ std::vector<ComponentId> removed_before(const WorkStep& step, const RemovalMove&
   return removed;
 }
 
+void add_once(std::vector<ComponentId>& list, ComponentId c) {
+  if (!has(list, c)) list.push_back(c);
+}
+
 }  // namespace
 
 RemovalFacts::RemovalFacts(const Assembly& assembly, const PairStates& pairs, const CertificateOptions& options)
@@ -117,6 +121,33 @@ std::vector<ComponentId> stationary_components(const Assembly& assembly, Span<co
     return diagonal(assembled_bounds(assembly[a])) > diagonal(assembled_bounds(assembly[b]));
   });
   return stationary;
+}
+
+std::vector<PartOverlaps> overlaps_of(const WorkStep& step, const PairStates& pairs,
+                                      const std::vector<std::size_t>& lines) {
+  std::vector<ComponentId> moving;
+  for (const RemovalMove& removal : step.removals)
+    moving.insert(moving.end(), removal.components.begin(), removal.components.end());
+  const std::vector<ComponentId> around = surroundings(step, step.removals.front());
+  std::vector<PartOverlaps> found;
+  for (const ComponentPair& pair : pairs.pairs) {
+    if (pair.state != PairState::Overlapping && pair.state != PairState::Free) continue;
+    if (has(moving, pair.a) == has(moving, pair.b)) continue;
+    const ComponentId own = has(moving, pair.a) ? pair.a : pair.b, other = own == pair.a ? pair.b : pair.a;
+    if (!has(around, other)) continue;
+    const std::size_t line = lines[own.value], other_line = lines[other.value];
+    auto part = std::find_if(found.begin(), found.end(), [&](const PartOverlaps& p) { return p.line == line; });
+    if (part == found.end()) part = found.insert(part, {line, {}, {}});
+    auto with = std::find_if(part->with.begin(), part->with.end(), [&](const PartOverlaps::With& w) {
+      return w.line == other_line && w.state == pair.state;
+    });
+    if (with == part->with.end()) with = part->with.insert(with, {other_line, pair.depth, pair.depth, pair.state, {}});
+    with->least = std::min(with->least, pair.depth);
+    with->depth = std::max(with->depth, pair.depth);
+    add_once(part->own, own);
+    add_once(with->components, other);
+  }
+  return found;
 }
 
 }  // namespace dismantle

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/assembly/pair_state.h"
 #include "dismantle/certificates/certificate_engine.h"
 #include "dismantle/instructions/work_steps.h"
 
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace dismantle {
 
@@ -51,5 +54,25 @@ inline constexpr double kMaxClearanceShare = 0.2;
 
 /// The components that no step moves, the largest first.
 std::vector<ComponentId> stationary_components(const Assembly& assembly, Span<const WorkStep> steps);
+
+/// The overlaps of equal parts that a step moves with others, in the assembled state.
+struct PartOverlaps {
+  /// Overlaps with equal parts.
+  struct With {
+    std::size_t line = 0;                 ///< Line of the bill of materials.
+    double least = 0, depth = 0;          ///< The smallest and the largest depth [mm].
+    PairState state = PairState::Free;    ///< Overlapping, or Free.
+    std::vector<ComponentId> components;  ///< Each once.
+  };
+
+  std::size_t line = 0;          ///< Line of the bill of materials.
+  std::vector<ComponentId> own;  ///< Those that overlap others, each once.
+  std::vector<With> with;        ///< In the order of the pairs.
+};
+
+/// The pairs that a step separates and that overlap, or that are free to, by the parts that the step moves.
+/// @param lines of the bill of materials. Shape [component_count].
+std::vector<PartOverlaps> overlaps_of(const WorkStep& step, const PairStates& pairs,
+                                      const std::vector<std::size_t>& lines);
 
 }  // namespace dismantle

@@ -21,8 +21,6 @@ using Kind = InstructionNote::Kind;
 
 /// Minimum cosine of the angle between a motion and the line of sight that is said.
 constexpr double kEndOn = 0.8;
-/// Maximum number of overlaps in a list; the rest is counted.
-constexpr std::size_t kMaxOverlaps = 6;
 /// Number of digits of the checksum on the cover.
 constexpr std::size_t kChecksumDigits = 12;
 
@@ -34,18 +32,6 @@ std::string fastener_name(const std::string& name, const std::optional<Fastener>
 }
 
 constexpr const char* kTimes = " \u00d7 ";
-
-/// Overlaps of equal parts between components that a step moves and others, in the assembled state.
-struct CountedOverlap {
-  std::size_t own_line = 0, other_line = 0;  ///< Lines of the bill of materials.
-  double least = 0, depth = 0;               ///< The smallest and the largest depth [mm].
-  PairState state = PairState::Overlapping;
-  std::vector<ComponentId> own, others;  ///< Without duplicates.
-
-  bool is_like(const CountedOverlap& o) const {
-    return own_line == o.own_line && other_line == o.other_line && state == o.state;
-  }
-};
 
 /// A text at the start of a sentence; names stay as they are.
 std::string sentence_start(std::string text) {
@@ -312,55 +298,31 @@ class Writer {
     if (!text.empty()) instruction.notes.push_back({Kind::Clearance, text});
   }
 
+  /// One sentence for each kind of part that a step moves, with all that it overlaps.
   void note_overlaps(const WorkStep& step, Instruction& instruction) const {
-    const std::vector<CountedOverlap> overlaps = overlaps_of(step);
-    const std::size_t listed = overlaps.size() <= kMaxOverlaps ? overlaps.size() : kMaxOverlaps - 1;
-    for (std::size_t i = 0; i < listed; ++i) {
-      const CountedOverlap& o = overlaps[i];
-      const std::string names = counted(o.own, o.own_line) + " and " + counted(o.others, o.other_line);
-      const std::string depth = number_text(o.depth), up_to = number_text(o.least) == depth ? "" : "up to ";
-      std::string text = "Collision between " + names + " is not checked until they are apart.";
-      if (o.state == PairState::Overlapping) {
-        text = "The CAD models of " + names + " overlap by ";
-        text += up_to;
-        text += depth + " mm: press fit, thread, or an error of the model.";
+    for (const PartOverlaps& part : overlaps_of(step, pairs_, lines_)) {
+      const std::string name = sentence_start(counted(part.own, part.line));
+      std::vector<std::string> others, not_checked;
+      for (const PartOverlaps::With& o : part.with) {
+        const std::string other = counted(o.components, o.line), depth = number_text(o.depth);
+        if (o.state == PairState::Free)
+          not_checked.push_back(other);
+        else
+          others.push_back(other + (number_text(o.least) == depth ? " by " : " by up to ") + depth + " mm");
       }
-      instruction.notes.push_back({Kind::Overlap, text});
+      if (!others.empty())
+        instruction.notes.push_back({Kind::Overlap, name + (part.own.size() > 1 ? " overlap " : " overlaps ") +
+                                                        list_text(others) +
+                                                        ": press fit, thread, or an error of the model."});
+      if (!not_checked.empty())
+        instruction.notes.push_back({Kind::Overlap, name + " and " + list_text(not_checked) +
+                                                        ": collision is not checked until they are apart."});
     }
-    if (listed < overlaps.size())
-      instruction.notes.push_back(
-          {Kind::Overlap, "And " + std::to_string(overlaps.size() - listed) + " more overlaps."});
   }
 
   /// Components of one item in running text.
   std::string counted(const std::vector<ComponentId>& components, std::size_t line) const {
     return components.size() == 1 ? names_.of(components[0]) : counted_name(result_, {line, components.size()});
-  }
-
-  /// The overlapping pairs that a step separates; those of equal parts are counted.
-  std::vector<CountedOverlap> overlaps_of(const WorkStep& step) const {
-    std::vector<ComponentId> set;
-    for (const RemovalMove& removal : step.removals)
-      set.insert(set.end(), removal.components.begin(), removal.components.end());
-    const std::vector<ComponentId> around = surroundings(step, step.removals.front());
-    const auto is_in = [](const std::vector<ComponentId>& in, ComponentId c) {
-      return std::find(in.begin(), in.end(), c) != in.end();
-    };
-    std::vector<CountedOverlap> found;
-    for (const ComponentPair& pair : pairs_.pairs) {
-      if (pair.state != PairState::Overlapping && pair.state != PairState::Free) continue;
-      if (is_in(set, pair.a) == is_in(set, pair.b)) continue;
-      const ComponentId other = is_in(set, pair.a) ? pair.b : pair.a, own = other == pair.a ? pair.b : pair.a;
-      if (!is_in(around, other)) continue;
-      const CountedOverlap one{lines_[own.value], lines_[other.value], pair.depth, pair.depth, pair.state, {}, {}};
-      auto like = std::find_if(found.begin(), found.end(), [&](const CountedOverlap& o) { return o.is_like(one); });
-      if (like == found.end()) like = found.insert(found.end(), one);
-      like->least = std::min(like->least, pair.depth);
-      like->depth = std::max(like->depth, pair.depth);
-      if (!is_in(like->own, own)) like->own.push_back(own);
-      if (!is_in(like->others, other)) like->others.push_back(other);
-    }
-    return found;
   }
 
   const Assembly& assembly_;

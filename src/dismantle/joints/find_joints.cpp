@@ -31,6 +31,8 @@ constexpr std::size_t kQuarter = AxialRays::kRays / 4;
 constexpr double kBeyond = 0.1;
 /// A stud in a nut reaches at least and at most to these shares of the nut's nominal radius.
 constexpr double kStudLeast = 0.7, kStudMost = 1.1;
+/// The insert of a lock nut is inside its box, but for this share of the box's diagonal.
+constexpr double kInsertBeyond = 0.05;
 /// Number of planes through a nut.
 constexpr int kNutPlanes = 8;
 
@@ -114,7 +116,6 @@ class JointSearch {
 
     Joint joint;
     joint.screw = screw;
-    joint.thread_in = thread->component;
     joint.has_head = shank->has_head;
     joint.axis = shank->frame.direction;
     joint.screw_leaves = unscrewing_of(shank->from_tip(end_of_thread(*thread)), f);
@@ -123,6 +124,9 @@ class JointSearch {
     for (const Surrounding& s : around)
       if (!joint.nuts.empty() && s.component == joint.nuts.front())
         joint.nut_leaves = unscrewing_of(shank->from_tip(s.last), f);
+    joint.thread_in = thread->component;
+    for (const ComponentId nut : joint.nuts)
+      if (is_inside(thread->component, nut)) joint.thread_in = nut;
     sort_rest(around, joint);
     joint.held.insert(joint.held.end(), pressed.begin(), pressed.end());
     sort_unique(joint.held);
@@ -150,6 +154,8 @@ class JointSearch {
       add_pressed(washer, frame, ends_of(washer, frame), f.diameter, joint);
     joint.held.push_back(joint.thread_in);
     std::erase(joint.held, nut);
+    std::erase(joint.nut_inserts, joint.thread_in);
+    sort_unique(joint.nut_inserts);
     sort_unique(joint.held);
     sort_unique(joint.nut_washers);
     return joint;
@@ -192,6 +198,15 @@ class JointSearch {
     return any;
   }
 
+  /// True for the insert of a nut.
+  bool is_inside(ComponentId c, ComponentId nut) const {
+    const Aabb& box = boxes_[nut.value];
+    const Aabb most = inflated(box, kInsertBeyond * diagonal(box));
+    Aabb both = most;
+    both.extend(boxes_[c.value]);
+    return both == most;
+  }
+
   std::size_t end_of_thread(const Surrounding& thread) const {
     return thread.is_tight && !is(thread.component, Kind::Nut) ? thread.last_tight : thread.last;
   }
@@ -200,6 +215,10 @@ class JointSearch {
   void sort_rest(const std::vector<Surrounding>& around, Joint& joint) const {
     for (const Surrounding& s : around) {
       if (is(s.component, Kind::Nut)) continue;
+      if (std::any_of(joint.nuts.begin(), joint.nuts.end(), [&](ComponentId n) { return is_inside(s.component, n); })) {
+        joint.nut_inserts.push_back(s.component);
+        continue;
+      }
       if (!is(s.component, Kind::Washer)) {
         joint.held.push_back(s.component);
       } else if (joint.held.empty() && !joint.nuts.empty()) {
@@ -208,6 +227,7 @@ class JointSearch {
         joint.head_washers.push_back(s.component);
       }
     }
+    sort_unique(joint.nut_inserts);
     sort_unique(joint.nut_washers);
     sort_unique(joint.head_washers);
   }
@@ -234,6 +254,10 @@ class JointSearch {
     const double outer = AxialRays(assembly_[by], frame, middle).outer(0);
     const double radius = (diameter / 2 + std::max(outer, diameter / 2)) / 2;
     for (const ComponentId c : near(by, 2 * beyond)) {
+      if (is_inside(c, by)) {
+        joint.nut_inserts.push_back(c);
+        continue;
+      }
       const AxialRays rays(assembly_[c], frame, positions);
       if (rays.empty() || std::max(rays.inside_at(0, radius), rays.inside_at(1, radius)) < kQuarter) continue;
       if (std::find(joint.nuts.begin(), joint.nuts.end(), c) != joint.nuts.end()) continue;

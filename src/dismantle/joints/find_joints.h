@@ -18,6 +18,7 @@ namespace dismantle {
 ///   presses just below it, and one that the tip of a set screw touches.
 /// - A nut, washer, threaded insert or standoff is one by `fasteners`; a nut and a washer that the shank passes through
 ///   come off with it.
+/// - What is inside the box of a nut, the insert of a lock nut, belongs to the nut.
 /// - The thread ends in the nut, insert, standoff or component with a hole no wider than the thread that is nearest to
 ///   the tip; if there is none, in what is nearest to the tip. That of a screw without a head is in the one nearest to
 ///   its other end. It is left after the distance from the tip to the end of that hole towards the head.

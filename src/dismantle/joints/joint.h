@@ -33,6 +33,7 @@ struct Joint {
   std::vector<ComponentId> nuts;          ///< Nuts on it, from the tip to the head.
   std::vector<ComponentId> head_washers;  ///< Washers between its head and what it holds, ascending.
   std::vector<ComponentId> nut_washers;   ///< Washers between its nuts and what it holds, ascending.
+  std::vector<ComponentId> nut_inserts;   ///< Components inside its nuts, of lock nuts: they come off with them.
   /// All other components that the shank passes through, or that the head, the nut, or the tip of a set screw presses
   /// on; ascending. With the component in which the thread ends, if that is not a nut.
   std::vector<ComponentId> held;
@@ -42,7 +43,8 @@ struct Joint {
   Unscrewing screw_leaves;  ///< Unscrewing of `screw` out of `thread_in`.
   Unscrewing nut_leaves;    ///< Unscrewing of the nut nearest to the tip.
 
-  /// The fasteners and washers in the order in which they come off: nuts, their washers, the screw, its washers.
+  /// The fasteners and washers in the order in which they come off: nuts, their inserts and washers, the screw, its
+  /// washers.
   std::vector<ComponentId> stack() const;
 
   friend bool operator==(const Joint&, const Joint&) = default;

@@ -47,7 +47,7 @@ Unscrewing unscrewing_of_path(const PlanStep& step) {
 
 /// The fastener that holds a washer as long as it is there: nuts those of their side, the screw the others.
 ComponentId holder_of_washer(const Joint& joint, ComponentId washer, const ComponentSet& present) {
-  const bool by_nut = has(joint.nut_washers, washer);
+  const bool by_nut = has(joint.nut_washers, washer) || has(joint.nut_inserts, washer);
   if (!by_nut) return joint.screw.valid() && present.has(joint.screw) ? joint.screw : ComponentId();
   for (const ComponentId nut : joint.nuts)
     if (present.has(nut)) return nut;
@@ -68,6 +68,7 @@ JointRelations::JointRelations(const std::vector<Joint>& joints, const RigidGrou
     for (const ComponentId c : joint.held) held_by_[c.value].push_back(i);
     for (const ComponentId c : joint.head_washers) washer_of_[c.value].push_back(i);
     for (const ComponentId c : joint.nut_washers) washer_of_[c.value].push_back(i);
+    for (const ComponentId c : joint.nut_inserts) washer_of_[c.value].push_back(i);
   }
 }
 
@@ -95,7 +96,8 @@ ComponentId JointRelations::fastener_of(Span<const ComponentId> components) cons
   if (!fastener.valid()) return {};
   for (const ComponentId c : components) {
     const auto has_washer = [&](std::size_t i) {
-      return has(joints_[i].head_washers, c) || has(joints_[i].nut_washers, c);
+      const Joint& joint = joints_[i];
+      return has(joint.head_washers, c) || has(joint.nut_washers, c) || has(joint.nut_inserts, c);
     };
     const Indices& of = fastened_by_[fastener.value];
     if (c != fastener && std::none_of(of.begin(), of.end(), has_washer)) return {};
@@ -109,6 +111,7 @@ std::vector<ComponentId> JointRelations::washers_with(ComponentId fastener, cons
     const Joint& joint = joints_[i];
     if (!leaves_along(joint, fastener, direction)) continue;
     const std::vector<ComponentId>& own = fastener == joint.screw ? joint.head_washers : joint.nut_washers;
+    if (fastener != joint.screw) washers.insert(washers.end(), joint.nut_inserts.begin(), joint.nut_inserts.end());
     washers.insert(washers.end(), own.begin(), own.end());
   }
   return washers;

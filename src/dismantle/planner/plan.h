@@ -42,7 +42,7 @@ struct PlanStep {
   /// to the body that the set belongs to, as if that were in its assembled pose.
   std::vector<Pose> poses;
   Vec3 exit;                           ///< Unit direction of the last, straight part.
-  std::optional<StepMargin> margin{};  ///< With PlanOptions::margins.
+  std::optional<StepMargin> margin{};  ///< After find_margins().
   /// How a fastener is turned out of its thread meanwhile: one that comes out along its axis, and is in the thread. The
   /// path itself may be straight.
   std::optional<Unscrewing> unscrewing{};

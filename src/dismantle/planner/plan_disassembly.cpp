@@ -17,7 +17,6 @@
 #include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/planner/search/removal_search.h"
 #include "dismantle/planner/search/single_removals.h"
-#include "dismantle/planner/step_margin.h"
 
 #include <algorithm>
 #include <mutex>
@@ -68,8 +67,6 @@ class Planner {
         single_({assembly, features_, relations_, table_, choice_, joint_steps_, options, time_left_}),
         curved_(planned_, {groups_, features_, validator_, table_, choice_, keep_going_}, options.slide_effort,
                 options.sample_effort),
-        margins_(assembly, pairs, validator_),
-        size_(diagonal(assembled_bounds(assembly))),
         overlaps_(assembly, pairs, table_, engine_options()) {
     plan_.allowances = validator_.engine().overlapping_pairs();
     for (const FlexiblePart& part : options.flexible)
@@ -357,15 +354,12 @@ class Planner {
   JointSteps joint_steps_;
   SingleRemovals single_;
   CurvedSteps curved_;
-  StepMargins margins_;
-  double size_;  // of the assembly [mm]
   OverlapSearch overlaps_;
   /// Sets what depends on the body that a step takes something from.
   const std::function<void(PlanStep&, const ComponentSet&)> describe_ = [this](PlanStep& step,
                                                                                const ComponentSet& body) {
     step.unscrewing = relations_.unscrewing(step, body);
     step.still_held_by = relations_.torn_by(step, body);
-    if (options_.margins) step.margin = margins_.of(step, body.members(), size_);
   };
   DirectionId last_direction_;
   /// Components that are taken apart in one place.

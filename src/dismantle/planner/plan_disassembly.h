@@ -54,8 +54,6 @@ struct PlanOptions {
   /// other straight along their axes only.
   std::vector<FlexiblePart> flexible{};
 
-  /// Finds the margin of each step (PlanStep::margin).
-  bool margins = false;
   /// The place of threaded fasteners.
   FastenerOrder fasteners = FastenerOrder::First;
   /// Asked once the steps are found: false leaves out why components stay, which may take as long as the steps;

@@ -22,6 +22,8 @@ constexpr double kRaceReach = 1.6;
 /// A board is no thicker than this share of its width, and carries at least so many components.
 constexpr double kBoardThickness = 0.1;
 constexpr std::size_t kLeastOnBoard = 10;
+/// What is soldered on in several solids, a body with its leads, has at most this share of the board's volume.
+constexpr double kMaxVolumeOnBoard = 0.03;
 /// An O-ring's section is at most this share of the outer radius.
 constexpr double kMaxSection = 0.3;
 
@@ -195,11 +197,43 @@ class ProposalSearch {
         changed = std::erase_if(on_it, touches_more) > 0;
       }
       if (on_it.size() < kLeastOnBoard) continue;
+      add_clusters(ComponentId(c), on_it);
       const std::string size = std::to_string(on_it.size());
       on_it.emplace_back(c);
       propose_together(std::move(on_it), assembly_.components[c].name,
                        "a plate with " + size + " components that touch nothing else");
     }
+  }
+
+  /// Adds to what is `on_it` the small components of several solids that touch the board and nothing else.
+  void add_clusters(ComponentId board, std::vector<ComponentId>& on_it) const {
+    const double most = kMaxVolumeOnBoard * box_volume(board);
+    std::vector<bool> seen(count());
+    seen[board.value] = true;
+    for (const ComponentId c : on_it) seen[c.value] = true;
+    for (const ComponentId first : touching_[board.value]) {
+      if (seen[first.value]) continue;
+      std::vector<ComponentId> cluster{first};
+      double volume = 0;
+      seen[first.value] = true;
+      bool is_free = true;
+      for (std::size_t at = 0; at < cluster.size(); ++at) {
+        volume += box_volume(cluster[at]);
+        is_free = is_free && !taken_[cluster[at].value];
+        for (const ComponentId other : touching_[cluster[at].value]) {
+          if (seen[other.value]) continue;
+          seen[other.value] = true;
+          cluster.push_back(other);
+        }
+      }
+      if (is_free && volume <= most) on_it.insert(on_it.end(), cluster.begin(), cluster.end());
+    }
+  }
+
+  /// Of a box along the principal axes [mm^3].
+  double box_volume(ComponentId c) const {
+    const Vec3 lengths = principal_lengths(*assembly_[c].mesh);
+    return lengths.x * lengths.y * lengths.z;
   }
 
   void propose_flexible() {
