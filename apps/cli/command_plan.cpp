@@ -175,15 +175,20 @@ Result<ExitCode> run(const PlanCommand& command) {
                                      : AllowingPlan{plan_disassembly(*assembly, *states, options), *states};
   };
   AllowingPlan found = make_plan();
-  const PartChoices first_choices = *choices;
-  if (!found.plan.out_of_time && take_back(*choices, found.plan)) {
-    const auto is_better = [&](const Plan& plan) { return removed_count(plan) > removed_count(found.plan); };
-    if (command.allow_overlap == 0) options.wants_reasons = is_better;  // else more may come out thanks to reasons
-    AllowingPlan second = make_plan();
-    if (is_better(second.plan)) {
-      found = std::move(second);
+  const PartChoices accepted = *choices;
+  const Plan first = found.plan;
+  const auto is_better = [&](const Plan& plan) { return removed_count(plan) > removed_count(found.plan); };
+  if (command.allow_overlap == 0) options.wants_reasons = is_better;  // else more may come out thanks to reasons
+  for (const bool whole : {false, true}) {
+    if (found.plan.out_of_time || found.plan.staying.empty()) break;
+    PartChoices less = accepted;
+    if (!(whole ? take_back(less, first) : take_back_some(less, first))) continue;
+    std::swap(*choices, less);
+    AllowingPlan other = make_plan();
+    if (is_better(other.plan)) {
+      found = std::move(other);
     } else {
-      *choices = first_choices;
+      *choices = std::move(less);
     }
   }
   if (command.margins)

@@ -38,6 +38,16 @@ void unite_accepted(PartChoices& choices) {
     if (proposal.kind == Proposal::Kind::Together) choices.groups.unite(proposal.components);
 }
 
+/// The components that stay in a plan, and those that block them.
+std::set<ComponentId> involved_in(const Plan& plan) {
+  std::set<ComponentId> involved;
+  for (const Explanation& e : plan.staying) {
+    involved.insert(e.group.begin(), e.group.end());
+    for (const Blocker& blocker : e.blockers) involved.insert(blocker.component);
+  }
+  return involved;
+}
+
 std::string proposal_text(const Assembly& assembly, const Proposal& proposal) {
   if (proposal.kind == Proposal::Kind::Flexible)
     return fmt::format("{} gives by {:.2g} mm ({})", proposal.name, proposal.flexible.overlap, proposal.reason);
@@ -98,16 +108,36 @@ Result<PartChoices> choose_parts(const Assembly& assembly, PairStates& states, c
   return choices;
 }
 
-bool take_back(PartChoices& choices, const Plan& plan) {
-  std::set<ComponentId> involved;
-  for (const Explanation& e : plan.staying) {
-    involved.insert(e.group.begin(), e.group.end());
-    for (const Blocker& blocker : e.blockers) involved.insert(blocker.component);
+bool take_back_some(PartChoices& choices, const Plan& plan) {
+  bool has_changed = false;
+  for (Proposal& proposal : choices.accepted) {
+    if (proposal.kind == Proposal::Kind::Flexible) continue;
+    const std::set<ComponentId> members(proposal.components.begin(), proposal.components.end());
+    std::set<ComponentId> holding;
+    for (const Explanation& e : plan.staying)
+      for (const Blocker& blocker : e.blockers)
+        if (members.contains(blocker.component) && !members.contains(e.component)) holding.insert(blocker.component);
+    for (const Joint& joint : plan.joints) {
+      const auto is_holding = [&](ComponentId c) { return holding.contains(c); };
+      if (std::none_of(joint.held.begin(), joint.held.end(), is_holding)) continue;
+      for (const ComponentId c : joint.stack())
+        if (members.contains(c)) holding.insert(c);
+    }
+    if (holding.empty() || holding.size() + 2 > members.size()) continue;
+    std::erase_if(proposal.components, [&](ComponentId c) { return holding.contains(c); });
+    proposal.reason += fmt::format("; without {} of its components, which block what would stay", holding.size());
+    has_changed = true;
   }
+  if (has_changed) unite_accepted(choices);
+  return has_changed;
+}
+
+bool take_back(PartChoices& choices, const Plan& plan) {
+  const std::set<ComponentId> involved = involved_in(plan);
   const auto keeps = [&](const Proposal& proposal) {
     return proposal.kind == Proposal::Kind::Flexible ||
            std::none_of(proposal.components.begin(), proposal.components.end(),
-                        [&](ComponentId c) { return involved.count(c) > 0; });
+                        [&](ComponentId c) { return involved.contains(c); });
   };
   const auto first = std::stable_partition(choices.accepted.begin(), choices.accepted.end(), keeps);
   if (first == choices.accepted.end()) return false;

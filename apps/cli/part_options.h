@@ -29,8 +29,12 @@ void add_flexible_option(CLI::App& command, CommonOptions& options);
 /// names that fit nothing.
 Result<PartChoices> choose_parts(const Assembly& assembly, PairStates& states, const CommonOptions& options);
 
-/// Takes back accepted proposals of one part with components that stay in a plan or block one that does: a rod that is
-/// hooked into the arm of a servo stays as long as the arm stays on the servo. @return false if there are none
+/// Leaves out of accepted proposals of one part the components that block others that stay in a plan, with the
+/// fasteners that hold them: a rod that is hooked into the arm of a servo stays as long as the arm stays on the servo,
+/// which without its arm still is one part. @return false if there are none
+bool take_back_some(PartChoices& choices, const Plan& plan);
+/// Takes back whole accepted proposals of one part with components that stay in a plan or block one that does.
+/// @return false if there are none
 bool take_back(PartChoices& choices, const Plan& plan);
 
 /// The parts that belong together or give, and what is proposed, a line each; empty if there is nothing to say.

@@ -57,6 +57,13 @@ DirectionId BlockingTable::add_direction(const Vec3& unit) {
   return added;
 }
 
+ComponentId BlockingTable::leader_of(ComponentId c) const {
+  const Span<const ComponentId> group = groups_.of(c);
+  return *std::max_element(group.begin(), group.end(), [this](ComponentId a, ComponentId b) {
+    return features_[a.value].radius < features_[b.value].radius;
+  });
+}
+
 BlockingTable::Known* BlockingTable::Row::find(ComponentId c) {
   const auto found = std::lower_bound(near.begin(), near.end(), c);
   return found == near.end() || *found != c ? nullptr : &known[static_cast<std::size_t>(found - near.begin())];

@@ -54,6 +54,8 @@ class BlockingTable {
 
   /// The groups of components that move together.
   const RigidGroups& groups() const { return groups_; }
+  /// The largest component of the group of a component, for which the whole group is searched for and explained.
+  ComponentId leader_of(ComponentId c) const;
 
   /// True if `fixed` blocks `moving` along `d`; components of one group always do.
   bool blocks(ComponentId moving, DirectionId d, ComponentId fixed);

@@ -17,7 +17,7 @@ class JointSteps {
              const RigidGroups& groups)
       : relations_(relations), table_(table), choice_(choice), groups_(groups) {}
 
-  /// The first of some components that can be removed straight; along `last`, if possible.
+  /// The first of some components, with its group, that can be removed straight; along `last`, if possible.
   std::optional<StraightRemoval> first_free(const std::vector<ComponentId>& components, DirectionId last,
                                             const ComponentSet& present, const ComponentSet& staying);
   /// The removal of a fastener with those of its washers that can move along; any other removal as it is.

@@ -156,7 +156,7 @@ class Planner {
     for (const Body& body : bodies_) {
       const ComponentSet staying = staying_of(body.left);
       for (const ComponentId c : body.left.members())
-        if (!staying.has(c) && curved_.leads(c)) left_.emplace_back(c, body.left);
+        if (!staying.has(c) && table_.leader_of(c) == c) left_.emplace_back(c, body.left);
     }
   }
 
@@ -184,7 +184,7 @@ class Planner {
       bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(bodies), bodies_.end());
     }
     for (const ComponentId target : targets)
-      if (left.has(target) && curved_.leads(target)) left_.emplace_back(target, left);
+      if (left.has(target) && table_.leader_of(target) == target) left_.emplace_back(target, left);
   }
 
   /// The components that have to go for the targets: with the fasteners that hold them, if there is a way.

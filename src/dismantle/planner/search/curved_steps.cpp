@@ -85,7 +85,7 @@ template <class Search>
 std::optional<PlanStep> CurvedSteps::find_long(LongSearches& searches, const ComponentSet& body,
                                                const ComponentSet& staying, const Search& search) {
   std::vector<ComponentId> components = smallest_first(body, staying);
-  std::erase_if(components, [this](ComponentId c) { return !leads(c); });
+  std::erase_if(components, [this](ComponentId c) { return with_.table.leader_of(c) != c; });
   auto step = searches.find(components, body, with_.validator, with_.keep_going, search);
   return step ? std::optional(with_group(std::move(*step))) : std::nullopt;
 }
@@ -94,13 +94,6 @@ bool CurvedSteps::may_find_more(Span<const Explanation> staying) const {
   return std::any_of(staying.begin(), staying.end(), [this](const Explanation& e) {
     return sliding_.may_find_more(e.component) || sampling_.may_find_more(e.component);
   });
-}
-
-bool CurvedSteps::leads(ComponentId c) const {
-  const Span<const ComponentId> group = with_.groups.of(c);
-  return *std::max_element(group.begin(), group.end(), [this](ComponentId a, ComponentId b) {
-    return with_.features[a.value].radius < with_.features[b.value].radius;
-  }) == c;
 }
 
 /// A step of a component as that of its group.

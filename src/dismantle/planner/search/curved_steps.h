@@ -47,8 +47,6 @@ class CurvedSteps {
   std::optional<PlanStep> find_sampled(const ComponentSet& body, const ComponentSet& staying);
   /// True if no sliding or sampled path was found for one of these, with its group, for want of effort.
   bool may_find_more(Span<const Explanation> staying) const;
-  /// True for the largest component of a group, for which the whole group is searched for and explained.
-  bool leads(ComponentId c) const;
 
  private:
   template <class Search>

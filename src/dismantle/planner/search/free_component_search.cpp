@@ -26,7 +26,7 @@ FreeComponentSearch::FreeComponentSearch(BlockingTable& table, const DirectionLi
       order_(present.members()),
       place_(present.universe(), kNowhere),
       blocked_by_(present.universe()) {
-  std::erase_if(order_, [&](ComponentId c) { return never.has(c); });
+  std::erase_if(order_, [&](ComponentId c) { return never.has(c) || table.leader_of(c) != c; });
   std::stable_sort(order_.begin(), order_.end(), [&](ComponentId a, ComponentId b) {
     if (early.has(a) != early.has(b)) return early.has(a);
     return table.radius(a) < table.radius(b);
@@ -75,21 +75,31 @@ void FreeComponentSearch::retry_postponed() {
 }
 
 FreeComponentSearch::Found FreeComponentSearch::test(ComponentId c, Pass pass, const KeepGoing& keep_going) const {
+  const Span<const ComponentId> group = table_.groups().of(c);
+  std::optional<ComponentSet> without_group;
+  if (group.size() > 1) {
+    without_group = present_;
+    without_group->erase(group);
+  }
+  const ComponentSet& others = without_group ? *without_group : present_;
   Found found;
   for (const DirectionId d : directions_[c.value]) {
-    if (!keep_going()) {
-      found.finished = false;
-      break;
-    }
     std::optional<ComponentId> blocker;
-    if (pass == Pass::Unpredicted) blocker = table_.expected_blocker(c, d, present_);
-    if (!blocker) blocker = table_.any_blocker(c, d, present_);
-    if (!blocker) {
-      found.free = d;
+    for (const ComponentId member : group) {
+      if (!keep_going()) {
+        found.finished = false;
+        return found;
+      }
+      if (pass == Pass::Unpredicted) blocker = table_.expected_blocker(member, d, others);
+      if (!blocker) blocker = table_.any_blocker(member, d, others);
+      if (!blocker) continue;
+      found.blockers.push_back(*blocker);
+      found.postponed |= table_.is_postponed(member, d, *blocker);
       break;
     }
-    found.blockers.push_back(*blocker);
-    found.postponed |= table_.is_postponed(c, d, *blocker);
+    if (blocker) continue;
+    found.free = d;
+    break;
   }
   return found;
 }
@@ -102,7 +112,8 @@ std::vector<StraightRemoval> FreeComponentSearch::test_batch(Span<const std::uin
   for (std::size_t i = 0; i < places.size(); ++i) {
     const ComponentId c = order_[places[i]];
     if (tested[i].free.valid()) {
-      removals.push_back({{c}, tested[i].free});
+      const Span<const ComponentId> group = table_.groups().of(c);
+      removals.push_back({{group.begin(), group.end()}, tested[i].free});
       // Its predictions did not hold: the next time it is tested in the first pass.
       waiting(Pass::Unpredicted).insert(places[i]);
     } else if (tested[i].finished) {
@@ -128,7 +139,9 @@ std::vector<StraightRemoval> FreeComponentSearch::find(const Executor& executor,
       std::vector<std::uint32_t> places;
       for (; next != waiting(pass).end() && rank(*next) / kFewComponents == batch; ++next) places.push_back(*next);
       std::vector<StraightRemoval> found = test_batch(places, pass, executor, keep_going);
-      std::erase_if(found, [&](const StraightRemoval& removal) { return !counts(removal.components[0]); });
+      std::erase_if(found, [&](const StraightRemoval& removal) {
+        return std::none_of(removal.components.begin(), removal.components.end(), counts);
+      });
       if (!found.empty()) return found;
       from = places.back() + 1;
     }

@@ -11,8 +11,9 @@
 
 namespace dismantle {
 
-/// Finds the single components that can be removed from a set that gets smaller and smaller: as free_components(), but
-/// a component that was blocked is tested again only after one of its blockers was removed.
+/// Finds the single components, and groups of components that move together, that can be removed from a set that gets
+/// smaller and smaller: as free_components(), but a component that was blocked is tested again only after one of its
+/// blockers was removed.
 class FreeComponentSearch {
  public:
   /// @param table, directions must outlive this @param present all that will be there @param never components that stay
@@ -28,8 +29,8 @@ class FreeComponentSearch {
   void remove(Span<const ComponentId> components);
   /// The result of free_components() for what is there.
   std::vector<StraightRemoval> find(const Executor& executor, const KeepGoing& keep_going);
-  /// As above, of those that count only: the others are passed over. @param counts (component) -> bool; asked of free
-  /// ones, by the calling thread
+  /// As above, of those that count only, of groups those of which a component does: the others are passed over. @param
+  /// counts (component) -> bool; asked of free ones, by the calling thread
   std::vector<StraightRemoval> find(const Executor& executor, const KeepGoing& keep_going,
                                     const std::function<bool(ComponentId)>& counts);
 

@@ -74,13 +74,19 @@ class RemovalSearch {
     }
     ComponentSet needed(present_.universe(), targets);
     for (std::size_t k = taken.size(); k-- > 0;) {
-      const ComponentId c = taken[k].components[0];
-      for (std::size_t later = k + 1; later < taken.size() && !needed.has(c); ++later) {
-        const ComponentId other = taken[later].components[0];
-        if (needed.has(other) && table_.blocks(other, taken[later].direction, c)) needed.insert(c);
-      }
+      const std::vector<ComponentId>& own = taken[k].components;
+      for (std::size_t later = k + 1; later < taken.size() && !needed.has(own[0]); ++later)
+        if (needed.has(taken[later].components[0]) && blocks_any(own, taken[later]))
+          for (const ComponentId c : own) needed.insert(c);
     }
     return needed;
+  }
+
+  bool blocks_any(const std::vector<ComponentId>& fixed, const StraightRemoval& removal) {
+    for (const ComponentId moving : removal.components)
+      for (const ComponentId c : fixed)
+        if (table_.blocks(moving, removal.direction, c)) return true;
+    return false;
   }
 
   void push(ComponentSet needed) {

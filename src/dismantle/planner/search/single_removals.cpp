@@ -47,12 +47,15 @@ std::vector<StraightRemoval> SingleRemovals::find(const ComponentSet& body, cons
   }
   FreeComponentSearch& search = joints != nullptr ? searches.by_joints : searches.by_collisions;
   std::vector<StraightRemoval> single = search.find(with_.options.engine.executor, with_.keep_going, counts);
+  const auto radius = [&](const StraightRemoval& removal) {
+    return with_.features[with_.table.leader_of(removal.components[0]).value].radius;
+  };
   std::stable_sort(single.begin(), single.end(), [&](const StraightRemoval& a, const StraightRemoval& b) {
-    const bool a_is_early = fasteners_.has(a.components[0]), b_is_early = fasteners_.has(b.components[0]);
+    const bool a_is_early = fasteners_.has_any(a.components), b_is_early = fasteners_.has_any(b.components);
     if (a_is_early != b_is_early) return a_is_early;
     const bool a_goes_on = a.direction == before.direction, b_goes_on = b.direction == before.direction;
     if (a_goes_on != b_goes_on) return a_goes_on;
-    return with_.features[a.components[0].value].radius < with_.features[b.components[0].value].radius;
+    return radius(a) < radius(b);
   });
   return single;
 }
