@@ -26,7 +26,6 @@ Json joint_json(const Assembly& assembly, const Joint& joint) {
           {"nuts", names_json(assembly, joint.nuts)},
           {"head_washers", names_json(assembly, joint.head_washers)},
           {"nut_washers", names_json(assembly, joint.nut_washers)},
-          {"nut_inserts", names_json(assembly, joint.nut_inserts)},
           {"held", names_json(assembly, joint.held)},
           {"thread_in", id_json(assembly, joint.thread_in)},
           {"has_head", joint.has_head},

@@ -185,6 +185,46 @@ TEST_F(CliPlan, TakesProposalsBackThatKeepSomethingIn) {
   EXPECT_EQ(Json::parse(run(plan + "--together '[sc]h*'").out)["removed"].size(), 0u);
 }
 
+/// A servo of three parts in a pocket of the base, open above. Its arm reaches under a rod, and before the rod's end;
+/// the rod can only slide out towards the arm, which can only slide the same way.
+Assembly servo_with_rod() {
+  using scenes::box;
+  const auto part = [](const char* name, const TriangleMesh& mesh) { return scenes::component(name, mesh); };
+  Assembly a = scenes::assembly(
+      {part("base", scenes::joined({box({-50, -5, -30}, {35, 15, -20}), box({-50, -5, -20}, {-40, 15, 0}),
+                                    box({-30, -5, -20}, {35, 15, 0}), box({-40, -5, -20}, {-30, 0, 0}),
+                                    box({-40, 10, -20}, {-30, 15, 0})})),
+       part("left", box({-28, -5, 0}, {30, 0, 20})), part("right", box({-28, 10, 0}, {30, 15, 20})),
+       part("end", box({30, -5, 0}, {35, 15, 20})), part("roof", box({-28, 0, 15}, {30, 10, 20})),
+       part("rod", box({-35, 0, 10}, {30, 10, 15})), part("gears", box({-40, 0, -20}, {-30, 10, -10})),
+       part("body", box({-40, 0, -10}, {-30, 10, 0})),
+       part("arm", scenes::joined({box({-40, 0, 0}, {-10, 10, 10}), box({-40, 0, 10}, {-35, 10, 15})}))});
+  a.tree = {{"product", 0}, {"servo", 0}};
+  for (std::uint32_t c = 0; c < a.components.size(); ++c) {
+    a.components[c].tree_node = static_cast<std::uint32_t>(a.tree.size());
+    a.tree.push_back({a.components[c].name, c < 6 ? 0u : 1u});
+  }
+  return a;
+}
+
+TEST_F(CliPlan, TakesOnlyWhatBlocksOutOfAProposal) {
+  ASSERT_TRUE(write_assembly(in("servo.glb"), servo_with_rod()).ok());
+  const std::string plan = "plan servo.glb -o all.path.json --effort 0 --fixed base left right end roof ";
+  const Outcome named = run(plan + "--json --together servo");
+  EXPECT_EQ(Json::parse(named.out)["removed"].size(), 0u) << "the servo and the rod hold each other";
+  const Outcome o = run(plan + "--json --accept-proposals");
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const Json made = Json::parse(o.out);
+  EXPECT_EQ(made["removed"].size(), 4u);
+  EXPECT_EQ(made["together"], Json::parse(R"([["gears", "body"]])"));
+  ASSERT_EQ(made["proposals"].size(), 1u);
+  EXPECT_EQ(made["proposals"][0]["accepted"], true);
+  EXPECT_EQ(made["steps"].back()["components"], Json::parse(R"(["gears", "body"])"));
+  EXPECT_EQ(run("audit servo.glb all.path.json").exit_code, 0);
+  EXPECT_NE(run(plan + "--accept-proposals").out.find("without 1 of its components, which block what would stay"),
+            std::string::npos);
+}
+
 TEST_F(CliPlan, WritesThePrecedenceGraph) {
   const std::string open = "plan parts -o one.path.json --target back --fixed floor roof left right end --graph ";
   ASSERT_EQ(run(open + "order.json").exit_code, 0);

@@ -53,16 +53,11 @@ TEST(FindJoints, KnowTheStackOfABolt) {
 }
 
 TEST(FindJoints, CountTheInsertOfALockNutAsAPartOfIt) {
-  Assembly a = scenes::bolted_plates();
-  // A ring in the end of the nut that is nearest to the tip of the bolt, in a wider hole.
-  a.components[5].mesh =
-      std::make_shared<TriangleMesh>(scenes::joined({scenes::bored(scenes::hexagon(8), scenes::kTapped, -8.2, -5),
-                                                     scenes::bored(scenes::hexagon(8), 3.2, -9.7, -8.2)}));
-  a.components.push_back(scenes::component("ring", scenes::bored(scenes::circle(3.2), 2.4, -9.7, -8.2)));
+  const Assembly a = scenes::bolted_plates_with_lock_nut();
   const std::vector<Joint> joints = joints_of(a);
   ASSERT_EQ(joints.size(), 1u);
   EXPECT_EQ(names(a, joints[0].nuts), (Names{"nut"}));
-  EXPECT_EQ(names(a, joints[0].nut_inserts), (Names{"ring"}));
+  EXPECT_EQ(joints[0].nut_inserts, (std::vector<NutInsert>{{*a.find("ring"), *a.find("nut")}}));
   EXPECT_EQ(names(a, joints[0].stack()), (Names{"nut", "ring", "washer#2", "bolt", "washer"}));
   EXPECT_EQ(names(a, joints[0].held), (Names{"lower", "upper"}));
   EXPECT_EQ(a[joints[0].thread_in].name, "nut");

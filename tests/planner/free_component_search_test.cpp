@@ -62,6 +62,33 @@ TEST_F(FreeComponentSearchTest, FindsWhatANewSearchFindsWithPredictions) {
   }
 }
 
+TEST_F(FreeComponentSearchTest, TakesAGroupAsOneComponent) {
+  // 0 and 3 are one group, which is free along the second direction once 1 is gone: there 3 blocks 2 only.
+  make(4, {{{0, 1}, {3, 2}, {1, 0}}, {{0, 1}, {2, 3}}});
+  groups_->unite(std::vector{ComponentId(0), ComponentId(3)});
+  table_.emplace(*engine_, features_, *groups_, kAlways);
+  const std::vector<DirectionId> d{table_->add_direction({1, 0, 0}), table_->add_direction({0, 1, 0})};
+  directions_.assign(4, d);
+  for (const auto& [moving, fixed] : {std::pair(0u, 1u), {3, 2}, {1, 0}, {2, 3}})
+    table_->add_blocker(ComponentId(moving), d[0], ComponentId(fixed));
+  for (const auto& [moving, fixed] : {std::pair(0u, 1u), {2, 3}})
+    table_->add_blocker(ComponentId(moving), d[1], ComponentId(fixed));
+  FreeComponentSearch search(*table_, directions_, ComponentSet::all(4), ComponentSet(4));
+  std::vector<StraightRemoval> found = search.find(Executor(), kAlways);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].components, (std::vector{ComponentId(1)}));
+  EXPECT_EQ(found[0].direction, d[1]);
+  search.remove(found[0].components);
+  found = search.find(Executor(), kAlways);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].components, (std::vector{ComponentId(0), ComponentId(3)}));
+  EXPECT_EQ(found[0].direction, d[1]) << "along the first, 2 blocks 3";
+  search.remove(found[0].components);
+  found = search.find(Executor(), kAlways);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].components, (std::vector{ComponentId(2)}));
+}
+
 TEST_F(FreeComponentSearchTest, FindsNothingMoreOnceTheTimeIsOver) {
   make(4, {{{0, 1}}});
   FreeComponentSearch search(*table_, directions_, ComponentSet::all(4), ComponentSet(4));

@@ -60,6 +60,14 @@ TEST(JointOrder, TakesAStackInARowWithItsWashers) {
   EXPECT_EQ(planned.torn(), 0u);
 }
 
+TEST(JointOrder, TakesALockNutOffWithItsInsertFirst) {
+  const Planned planned(scenes::bolted_plates_with_lock_nut());
+  EXPECT_TRUE(planned.plan.complete());
+  EXPECT_EQ(planned.steps(), (Names{"nut+ring+washer#2", "bolt+washer", "upper"}));
+  EXPECT_TRUE(planned.plan.steps[0].unscrewing);
+  EXPECT_EQ(planned.torn(), 0u);
+}
+
 TEST(JointOrder, UnscrewsAllThatAPlateHangsFromBeforeThePlate) {
   const Planned planned(scenes::hanging_plate());
   EXPECT_TRUE(planned.plan.complete());

@@ -91,6 +91,22 @@ TEST(FindProposals, TakesSmallClustersOfSolidsOnABoardAlong) {
   EXPECT_EQ(std::count(all.begin(), all.end(), "block") + std::count(all.begin(), all.end(), "roof"), 0);
 }
 
+TEST(FindProposals, TakesWhatIsOfOneBearingByItsNames) {
+  std::vector<Component> components;
+  for (const double x : {0.0, 50.0})  // two bearings of one name
+    for (const char* part : {"cup", "cone", "roller", "roller#2"})
+      components.push_back(
+          scenes::component("Front bearing " + std::string(part), scenes::box({x, 0, 0}, {x + 9, 9, 9})));
+  components.push_back(scenes::component("Front bearing cover", scenes::box({0, 0, 9}, {9, 9, 10})));
+  const Assembly assembly = scenes::assembly(std::move(components));
+  const std::vector<Proposal> found = proposals_for(assembly);
+  ASSERT_EQ(found.size(), 2u);
+  for (const Proposal& proposal : found) {
+    EXPECT_EQ(proposal.name, "front bearing");
+    EXPECT_EQ(proposal.components.size(), 4u);
+  }
+}
+
 TEST(FindProposals, GoesByTheNamesOfSubAssembliesAndByProductsOfSeveralSolids) {
   std::vector<Component> components;
   for (int k = 0; k < 9; ++k)

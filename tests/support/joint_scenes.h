@@ -90,6 +90,15 @@ inline Assembly bolted_plates() {
                    component("nut", bored(hexagon(8), kTapped, -9.7, -5))});
 }
 
+/// The same, where the nut is a lock nut: a "ring" in a wider hole at its lower end grips the bolt.
+inline Assembly bolted_plates_with_lock_nut() {
+  Assembly a = bolted_plates();
+  a.components[5] =
+      component("nut", joined({bored(hexagon(8), kTapped, -8.2, -5), bored(hexagon(8), 3.2, -9.7, -8.2)}));
+  a.components.push_back(component("ring", bored(circle(3.2), 2.4, -9.7, -8.2)));
+  return a;
+}
+
 /// A "plate" that hangs below a "beam" from six screws, "screw", "screw#2" ..., with their heads down.
 inline Assembly hanging_plate() {
   std::vector<TriangleMesh> beam, plate;

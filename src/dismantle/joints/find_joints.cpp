@@ -154,8 +154,8 @@ class JointSearch {
       add_pressed(washer, frame, ends_of(washer, frame), f.diameter, joint);
     joint.held.push_back(joint.thread_in);
     std::erase(joint.held, nut);
-    std::erase(joint.nut_inserts, joint.thread_in);
-    sort_unique(joint.nut_inserts);
+    std::erase_if(joint.nut_inserts, [&](const NutInsert& ring) { return ring.insert == joint.thread_in; });
+    std::sort(joint.nut_inserts.begin(), joint.nut_inserts.end());
     sort_unique(joint.held);
     sort_unique(joint.nut_washers);
     return joint;
@@ -215,8 +215,10 @@ class JointSearch {
   void sort_rest(const std::vector<Surrounding>& around, Joint& joint) const {
     for (const Surrounding& s : around) {
       if (is(s.component, Kind::Nut)) continue;
-      if (std::any_of(joint.nuts.begin(), joint.nuts.end(), [&](ComponentId n) { return is_inside(s.component, n); })) {
-        joint.nut_inserts.push_back(s.component);
+      const auto nut =
+          std::find_if(joint.nuts.begin(), joint.nuts.end(), [&](ComponentId n) { return is_inside(s.component, n); });
+      if (nut != joint.nuts.end()) {
+        joint.nut_inserts.push_back({s.component, *nut});
         continue;
       }
       if (!is(s.component, Kind::Washer)) {
@@ -227,7 +229,7 @@ class JointSearch {
         joint.head_washers.push_back(s.component);
       }
     }
-    sort_unique(joint.nut_inserts);
+    std::sort(joint.nut_inserts.begin(), joint.nut_inserts.end());
     sort_unique(joint.nut_washers);
     sort_unique(joint.head_washers);
   }
@@ -255,7 +257,7 @@ class JointSearch {
     const double radius = (diameter / 2 + std::max(outer, diameter / 2)) / 2;
     for (const ComponentId c : near(by, 2 * beyond)) {
       if (is_inside(c, by)) {
-        joint.nut_inserts.push_back(c);
+        if (is(by, Kind::Nut)) joint.nut_inserts.push_back({c, by});
         continue;
       }
       const AxialRays rays(assembly_[c], frame, positions);

@@ -42,7 +42,7 @@ std::string screwing_in_text(const Unscrewing& u) {
 
 std::vector<ComponentId> Joint::stack() const {
   std::vector<ComponentId> all = nuts;
-  all.insert(all.end(), nut_inserts.begin(), nut_inserts.end());
+  for (const NutInsert& ring : nut_inserts) all.push_back(ring.insert);
   all.insert(all.end(), nut_washers.begin(), nut_washers.end());
   if (screw.valid()) all.push_back(screw);
   all.insert(all.end(), head_washers.begin(), head_washers.end());

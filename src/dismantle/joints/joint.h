@@ -26,6 +26,12 @@ std::string unscrewing_text(const Unscrewing& unscrewing);
 /// The same for the way back: "screw in 12 turns clockwise, 9.6 mm (nominal pitch 0.8 mm)".
 std::string screwing_in_text(const Unscrewing& unscrewing);
 
+/// The ring inside a lock nut, which comes off with the nut.
+struct NutInsert {
+  ComponentId insert, nut;
+  friend auto operator<=>(const NutInsert&, const NutInsert&) = default;
+};
+
 /// A threaded fastener, what comes off with it, and what it holds, in the assembled state.
 struct Joint {
   /// The screw, bolt, or standoff with a stud; invalid for a nut on a stud that is part of `thread_in`.
@@ -33,7 +39,7 @@ struct Joint {
   std::vector<ComponentId> nuts;          ///< Nuts on it, from the tip to the head.
   std::vector<ComponentId> head_washers;  ///< Washers between its head and what it holds, ascending.
   std::vector<ComponentId> nut_washers;   ///< Washers between its nuts and what it holds, ascending.
-  std::vector<ComponentId> nut_inserts;   ///< Components inside its nuts, of lock nuts: they come off with them.
+  std::vector<NutInsert> nut_inserts;     ///< Of its nuts that are lock nuts, ascending.
   /// All other components that the shank passes through, or that the head, the nut, or the tip of a set screw presses
   /// on; ascending. With the component in which the thread ends, if that is not a nut.
   std::vector<ComponentId> held;

@@ -18,6 +18,11 @@ bool has(const std::vector<ComponentId>& list, ComponentId c) {
   return std::find(list.begin(), list.end(), c) != list.end();
 }
 
+bool is_insert(const Joint& joint, ComponentId c) {
+  return std::any_of(joint.nut_inserts.begin(), joint.nut_inserts.end(),
+                     [&](const NutInsert& ring) { return ring.insert == c; });
+}
+
 void sort_unique(std::vector<ComponentId>& list) {
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -47,7 +52,7 @@ Unscrewing unscrewing_of_path(const PlanStep& step) {
 
 /// The fastener that holds a washer as long as it is there: nuts those of their side, the screw the others.
 ComponentId holder_of_washer(const Joint& joint, ComponentId washer, const ComponentSet& present) {
-  const bool by_nut = has(joint.nut_washers, washer) || has(joint.nut_inserts, washer);
+  const bool by_nut = has(joint.nut_washers, washer);
   if (!by_nut) return joint.screw.valid() && present.has(joint.screw) ? joint.screw : ComponentId();
   for (const ComponentId nut : joint.nuts)
     if (present.has(nut)) return nut;
@@ -61,14 +66,15 @@ JointRelations::JointRelations(const std::vector<Joint>& joints, const RigidGrou
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Joint& joint = joints[i];
     const ComponentId first = joint.screw.valid() ? joint.screw : joint.nuts.front();
-    if (groups.of(first).size() > 1) continue;
+    const Span<const ComponentId> group = groups.of(first);
+    if (std::any_of(group.begin(), group.end(), [&](ComponentId c) { return c != first && !is_insert(joint, c); }))
+      continue;
     relevant_.push_back(i);
     if (joint.screw.valid()) fastened_by_[joint.screw.value].push_back(i);
     for (const ComponentId nut : joint.nuts) fastened_by_[nut.value].push_back(i);
     for (const ComponentId c : joint.held) held_by_[c.value].push_back(i);
     for (const ComponentId c : joint.head_washers) washer_of_[c.value].push_back(i);
     for (const ComponentId c : joint.nut_washers) washer_of_[c.value].push_back(i);
-    for (const ComponentId c : joint.nut_inserts) washer_of_[c.value].push_back(i);
   }
 }
 
@@ -97,7 +103,7 @@ ComponentId JointRelations::fastener_of(Span<const ComponentId> components) cons
   for (const ComponentId c : components) {
     const auto has_washer = [&](std::size_t i) {
       const Joint& joint = joints_[i];
-      return has(joint.head_washers, c) || has(joint.nut_washers, c) || has(joint.nut_inserts, c);
+      return has(joint.head_washers, c) || has(joint.nut_washers, c) || is_insert(joint, c);
     };
     const Indices& of = fastened_by_[fastener.value];
     if (c != fastener && std::none_of(of.begin(), of.end(), has_washer)) return {};
@@ -111,7 +117,6 @@ std::vector<ComponentId> JointRelations::washers_with(ComponentId fastener, cons
     const Joint& joint = joints_[i];
     if (!leaves_along(joint, fastener, direction)) continue;
     const std::vector<ComponentId>& own = fastener == joint.screw ? joint.head_washers : joint.nut_washers;
-    if (fastener != joint.screw) washers.insert(washers.end(), joint.nut_inserts.begin(), joint.nut_inserts.end());
     washers.insert(washers.end(), own.begin(), own.end());
   }
   return washers;

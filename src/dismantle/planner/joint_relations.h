@@ -27,7 +27,7 @@ class JointRelations {
   /// The screw or nut of a set that consists of one and of some of its washers and inserts, or of none; invalid for
   /// other sets.
   ComponentId fastener_of(Span<const ComponentId> components) const;
-  /// The washers and inserts that come off with a screw, or with a nut, that moves along a unit direction.
+  /// The washers that come off with a screw, or with a nut, that moves along a unit direction.
   std::vector<ComponentId> washers_with(ComponentId fastener, const Vec3& direction) const;
 
   /// A component that has to go before `c` moves by itself along a unit direction: the fastener that holds it; for a
@@ -70,7 +70,7 @@ class JointRelations {
   Indices relevant_;                  // of joints
   std::vector<Indices> fastened_by_;  // of each component: joints of which it is the screw or a nut
   std::vector<Indices> held_by_;      // of each component: joints that hold it
-  std::vector<Indices> washer_of_;    // of each component: joints of which it is a washer, or an insert of a nut
+  std::vector<Indices> washer_of_;    // of each component: joints of which it is a washer
 };
 
 }  // namespace dismantle

@@ -32,9 +32,12 @@ constexpr std::size_t kDepthTests = 50000;
 /// Distance at which removed components stand, in diagonals of the assembly.
 constexpr double kFarAway = 100;
 
-RigidGroups groups_of(const Assembly& assembly, const PlanOptions& options) {
+/// What the options name, and lock nuts with their inserts.
+RigidGroups groups_of(const Assembly& assembly, const PlanOptions& options, const std::vector<Joint>& joints) {
   RigidGroups groups(assembly.components.size());
   for (const std::vector<ComponentId>& together : options.together) groups.unite(together);
+  for (const Joint& joint : joints)
+    for (const auto& [insert, nut] : joint.nut_inserts) groups.unite(std::vector{insert, nut});
   return groups;
 }
 
@@ -50,13 +53,13 @@ class Planner {
       : options_(options),
         count_(assembly.components.size()),
         time_(options.time_limit),
-        groups_(groups_of(assembly, options)),
+        fasteners_(fasteners_of(assembly, options)),
+        joints_(fasteners_.empty() ? std::vector<Joint>{} : find_joints(assembly, fasteners_, options.engine.executor)),
+        groups_(groups_of(assembly, options, joints_)),
         targets_(groups_.with_groups(options.targets)),
         fixed_(groups_.with_groups(options.fixed)),
         features_(shape_features(assembly, options.engine.executor)),
         planned_{assembly, features_, pairs.tolerance},
-        fasteners_(fasteners_of(assembly, options)),
-        joints_(fasteners_.empty() ? std::vector<Joint>{} : find_joints(assembly, fasteners_, options.engine.executor)),
         relations_(joints_, groups_, count_),
         validator_(assembly, pairs, engine_options(), groups_, kFarAway * diagonal(assembled_bounds(assembly)),
                    [this] { return keep_going(); }),
@@ -339,14 +342,14 @@ class Planner {
   std::size_t taken_out_ = 0;
   Plan plan_;
   ///@}
+  const std::vector<std::optional<Fastener>> fasteners_;
+  const std::vector<Joint> joints_;
   RigidGroups groups_;
   std::vector<ComponentId> targets_, fixed_;  // with their groups
   std::vector<ShapeFeatures> features_;
   PlannedAssembly planned_;
   const KeepGoing keep_going_ = [this] { return keep_going(); };
   const KeepGoing time_left_ = [this] { return time_.is_left(); };
-  const std::vector<std::optional<Fastener>> fasteners_;
-  const std::vector<Joint> joints_;
   JointRelations relations_;
   MotionValidator validator_;
   BlockingTable table_;

@@ -19,6 +19,8 @@ constexpr std::size_t kLeastBalls = 5;
 constexpr double kSameSize = 0.02, kFarthestBall = 6;
 /// A race, a cage or a seal reaches no further from the middle of the ring than this many times the balls do.
 constexpr double kRaceReach = 1.6;
+/// A bearing by the names of its components has at least so many.
+constexpr std::size_t kLeastOfBearing = 3;
 /// A board is no thicker than this share of its width, and carries at least so many components.
 constexpr double kBoardThickness = 0.1;
 constexpr std::size_t kLeastOnBoard = 10;
@@ -46,6 +48,7 @@ class ProposalSearch {
   std::vector<Proposal> run() {
     propose_sub_assemblies();
     propose_bearings();
+    propose_named_bearings();
     propose_boards();
     const auto first = [](const Proposal& a, const Proposal& b) { return a.components[0] < b.components[0]; };
     std::stable_sort(found_.begin(), found_.end(), first);
@@ -177,6 +180,30 @@ class ProposalSearch {
     if (members.size() > count_of_balls)
       propose_together(std::move(members), name,
                        std::to_string(count_of_balls) + " equal balls in a circle, with " + races + " rings about it");
+  }
+
+  /// Components whose names say that they are of one bearing, where they are in one place.
+  void propose_named_bearings() {
+    std::map<std::string, std::vector<ComponentId>> named;
+    for (std::uint32_t c = 0; c < count(); ++c)
+      if (const std::string name = bearing_of(assembly_.components[c].name); !taken_[c] && !name.empty())
+        named[name].emplace_back(c);
+    for (auto& [name, waiting] : named)
+      while (!waiting.empty()) {
+        std::vector<ComponentId> members{waiting.back()};
+        waiting.pop_back();
+        for (std::size_t at = 0; at < members.size(); ++at) {
+          const Aabb box = assembled_bounds(assembly_[members[at]]);
+          const auto is_beside = [&](ComponentId c) { return overlaps(box, assembled_bounds(assembly_[c])); };
+          const auto beside =
+              std::stable_partition(waiting.begin(), waiting.end(), [&](ComponentId c) { return !is_beside(c); });
+          members.insert(members.end(), beside, waiting.end());
+          waiting.erase(beside, waiting.end());
+        }
+        if (members.size() < kLeastOfBearing) continue;
+        const std::string size = std::to_string(members.size());
+        propose_together(std::move(members), name, "the names of " + size + " components say that they are of it");
+      }
   }
 
   void propose_boards() {

@@ -30,6 +30,10 @@ constexpr std::string_view kBelongs[] = {
     "frame*", "base",     "support*", "clamp*", "spacer*",  "lid",    "pulley*",  "coupl*",   "screw*",   "bolt*",
     "nut",    "washer*",  "holder*",  "guide*", "anchor*",  "chain*", "tension*", "pin"};
 
+/// Words of the components of bearings.
+constexpr std::string_view kOfBearing[] = {"ball*", "roller*", "cage*",  "retainer*", "cone*",  "cup",
+                                           "race*", "ring*",   "inner*", "outer*",    "shield*"};
+
 bool fits(std::string_view pattern, std::string_view word) {
   if (pattern.empty() || pattern.back() != '*') return pattern == word;
   return word.substr(0, pattern.size() - 1) == pattern.substr(0, pattern.size() - 1);
@@ -78,6 +82,26 @@ std::vector<std::string> words_of(std::string_view name) {
 
 std::string purchased_word(std::string_view name) {
   return known_word(name, kPurchased);
+}
+
+std::string bearing_of(std::string_view name) {
+  const std::vector<std::string> words = words_of(name);
+  const auto is_number = [](const std::string& word) {
+    return word.find_first_not_of("0123456789") == std::string::npos;
+  };
+  const auto is_of_bearing = [&](const std::string& word) {
+    return is_number(word) || std::any_of(std::begin(kOfBearing), std::end(kOfBearing),
+                                          [&](std::string_view known) { return fits(known, word); });
+  };
+  std::string bearing;
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    bearing += (bearing.empty() ? "" : " ") + *word;
+    if (!fits("bearing*", *word)) continue;
+    const auto rest = word + 1;
+    const bool fit = std::all_of(rest, words.end(), is_of_bearing) && !std::all_of(rest, words.end(), is_number);
+    return fit ? bearing : std::string();
+  }
+  return {};
 }
 
 std::string flexible_word(std::string_view name) {

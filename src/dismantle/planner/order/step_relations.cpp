@@ -59,6 +59,7 @@ class RelationSearch {
   /// A fastener comes before what it holds, and the parts of a stack one after another, where they do: at once, where
   /// nothing is in between.
   void add_joints(std::vector<OrderedStep>& steps) const {
+    std::vector<Indices> threaded(steps.size());
     for (const Joint& joint : section_.plan.joints) {
       Indices stack;
       for (const ComponentId c : joint.stack())
@@ -74,9 +75,12 @@ class RelationSearch {
         const std::uint32_t after = step_of_[held.value];
         if (after == kNoStep || after <= released) continue;
         add_unique(steps[after].before, released);
-        add_unique(steps[after].held_by, released);
+        // A cover is screwed onto its case: without the screws, the cover is loose.
+        add_unique(held == joint.thread_in ? threaded[after] : steps[after].held_by, released);
       }
     }
+    for (std::uint32_t i = 0; i < steps.size(); ++i)
+      if (steps[i].held_by.empty()) steps[i].held_by = std::move(threaded[i]);
   }
 
   /// Adds the steps that remove obstacles from the way of each step, and those that expose its components.
