@@ -22,10 +22,13 @@ Json unscrewing_json(const Unscrewing& u) {
 }
 
 Json joint_json(const Assembly& assembly, const Joint& joint) {
+  std::vector<ComponentId> inserts;
+  for (const NutInsert& ring : joint.nut_inserts) inserts.push_back(ring.insert);
   return {{"screw", id_json(assembly, joint.screw)},
           {"nuts", names_json(assembly, joint.nuts)},
           {"head_washers", names_json(assembly, joint.head_washers)},
           {"nut_washers", names_json(assembly, joint.nut_washers)},
+          {"nut_inserts", names_json(assembly, inserts)},
           {"held", names_json(assembly, joint.held)},
           {"thread_in", id_json(assembly, joint.thread_in)},
           {"has_head", joint.has_head},
@@ -88,6 +91,7 @@ Json plan_json(const Assembly& a, const Plan& plan, const Path& path) {
                      {"exit", {step.exit.x, step.exit.y, step.exit.z}}});
     if (step.unscrewing) steps.back()["unscrew"] = unscrewing_json(*step.unscrewing);
     if (!step.still_held_by.empty()) steps.back()["still_held_by"] = names_json(a, step.still_held_by);
+    if (step.is_enclosed) steps.back()["enclosed"] = true;
     if (!step.margin) continue;
     steps.back()["margin_mm"] = step.margin->margin;
     const bool is_near = step.margin->nearest.valid();

@@ -72,6 +72,15 @@ TEST(WorkInstructions, NameFastenersTheirToolsAndThreads) {
   EXPECT_EQ(part_name_text(made.parts[2]), "part 7, socket head screw M5x16");
 }
 
+TEST(WorkInstructions, TakeNoHexagonOfAWidePartForADrive) {
+  Assembly a = scenes::bolted_lid();
+  const TriangleMesh wide = scenes::joined({*a.components[2].mesh, scenes::box({40, 0, 20}, {90, 20, 30})});
+  for (std::size_t c = 2; c < 4; ++c) a.components[c].mesh = std::make_shared<const TriangleMesh>(wide);
+  const WorkInstructions made = written(a, scenes::bolted_lid_pairs(), scenes::bolted_lid_path());
+  EXPECT_EQ(said(made.steps[0], InstructionNote::Kind::Tool), "");
+  EXPECT_TRUE(made.tools.empty());
+}
+
 /// A path that moves sets of components up or down, one after another.
 Path path_of(const Assembly& a, const std::vector<std::pair<std::vector<std::string>, double>>& moves) {
   Path path;

@@ -15,6 +15,9 @@ namespace {
 
 /// Maximum sine of the angle between a motion and the axis of a drive or a thread that it uses.
 constexpr double kAlong = 0.02;
+/// A hexagon on a part that reaches further from its axis than so many times its width is no drive, unless the part is
+/// turned.
+constexpr double kWidestHead = 1.5;
 
 /// True if an axis is parallel to the direction or the axis of a leg.
 bool lies_along(const Vec3& axis, const Leg& leg) {
@@ -34,6 +37,13 @@ std::string thread_text(bool left_handed, const std::string& size, const std::ve
   return text;
 }
 
+double radius_about(const RevolutionAxis& axis, const TriangleMesh& mesh) {
+  double squared = 0;
+  for (const Vec3& v : mesh.vertices)
+    squared = std::max(squared, length_squared(cross(axis.direction, v - axis.point)));
+  return std::sqrt(squared);
+}
+
 Tool tool_for(Fastener::Drive drive, double across_flats) {
   Fastener f;
   f.drive = drive;
@@ -44,22 +54,26 @@ Tool tool_for(Fastener::Drive drive, double across_flats) {
 ToolNotes notes_of_shape(const TriangleMesh& mesh, const Mat3& turned, const std::vector<Leg>& legs,
                          PathDirection direction) {
   ToolNotes notes;
-  std::set<Tool> tools;
   const std::vector<RevolutionAxis> axes = revolution_axes(mesh.vertices, mesh.faces);
-  for (const RevolutionAxis& axis : axes) {
-    if (!lies_along(turned * axis.direction, legs.front())) continue;
-    for (const HexagonDrive& drive : hexagon_drives(mesh, axis))
-      tools.insert(
-          tool_for(drive.kind == HexagonDrive::Kind::Head ? Fastener::Drive::Hexagon : Fastener::Drive::HexSocket,
-                   drive.across_flats));
-  }
-  notes.tools.assign(tools.begin(), tools.end());
   for (const ThreadAxis& thread : thread_axes(mesh.vertices, mesh.faces, axes))
     if (lies_along(turned * thread.direction, legs.front()))
       notes.threads.push_back(thread_text(
           thread.lead < 0,
           ", diameter " + number_text(2 * thread.max_radius) + " mm, lead " + number_text(std::abs(thread.lead)), legs,
           direction));
+  const bool is_turned = !notes.threads.empty() || std::any_of(legs.begin(), legs.end(), is_screwing);
+  std::set<Tool> tools;
+  for (const RevolutionAxis& axis : axes) {
+    if (!lies_along(turned * axis.direction, legs.front())) continue;
+    const double radius = radius_about(axis, mesh);
+    for (const HexagonDrive& drive : hexagon_drives(mesh, axis)) {
+      if (!is_turned && radius > kWidestHead * drive.across_flats) continue;
+      tools.insert(
+          tool_for(drive.kind == HexagonDrive::Kind::Head ? Fastener::Drive::Hexagon : Fastener::Drive::HexSocket,
+                   drive.across_flats));
+    }
+  }
+  notes.tools.assign(tools.begin(), tools.end());
   return notes;
 }
 

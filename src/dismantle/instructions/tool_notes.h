@@ -26,8 +26,9 @@ struct ToolNotes {
   std::vector<std::string> threads;  ///< "Right-hand thread M5, pitch 0.8 mm. ..."
 };
 
-/// The tools and threads of a component along the first leg of its removal: of the fastener that it is; of any
-/// hexagons and modelled threads about the axis of the motion for all other components.
+/// The tools and threads of a component along the first leg of its removal: of the fastener that it is; for all
+/// other components of modelled threads about the axis of the motion, and of hexagons about it, where the component is
+/// turned or not much wider than the hexagon.
 /// @pre `legs` is not empty
 ToolNotes tool_notes(const Component& component, const std::optional<Fastener>& fastener, const RemovalMove& removal,
                      const std::vector<Leg>& legs, PathDirection direction);

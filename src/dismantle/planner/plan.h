@@ -49,6 +49,9 @@ struct PlanStep {
   /// Fasteners that still hold some of the components when they move; for a fastener that is pulled across its axis,
   /// what it is screwed into. Ascending; empty unless there was no other step.
   std::vector<ComponentId> still_held_by{};
+  /// Others enclose all of its components when they are removed (Exposure): they come out through an opening. Not for
+  /// fasteners.
+  bool is_enclosed = false;
 };
 
 /// A component that blocks the straight removal of another along one direction.
