@@ -182,7 +182,7 @@ Result<ExitCode> run(const PlanCommand& command) {
   for (const bool whole : {false, true}) {
     if (found.plan.out_of_time || found.plan.staying.empty()) break;
     PartChoices less = accepted;
-    if (!(whole ? take_back(less, first) : take_back_some(less, first))) continue;
+    if (!(whole ? take_back(less, first) : take_back_some(less, found.pairs, first))) continue;
     std::swap(*choices, less);
     AllowingPlan other = make_plan();
     if (is_better(other.plan)) {

@@ -108,7 +108,9 @@ Result<PartChoices> choose_parts(const Assembly& assembly, PairStates& states, c
   return choices;
 }
 
-bool take_back_some(PartChoices& choices, const Plan& plan) {
+bool take_back_some(PartChoices& choices, const PairStates& states, const Plan& plan) {
+  std::set<ComponentId> staying;
+  for (const Explanation& e : plan.staying) staying.insert(e.group.begin(), e.group.end());
   bool has_changed = false;
   for (Proposal& proposal : choices.accepted) {
     if (proposal.kind == Proposal::Kind::Flexible) continue;
@@ -117,6 +119,12 @@ bool take_back_some(PartChoices& choices, const Plan& plan) {
     for (const Explanation& e : plan.staying)
       for (const Blocker& blocker : e.blockers)
         if (members.contains(blocker.component) && !members.contains(e.component)) holding.insert(blocker.component);
+    if (holding.empty())
+      for (const ComponentPair& pair : states.pairs) {
+        if (pair.state == PairState::Clear || pair.state == PairState::Near) continue;
+        for (const auto& [own, other] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
+          if (members.contains(own) && !members.contains(other) && staying.contains(other)) holding.insert(own);
+      }
     for (const Joint& joint : plan.joints) {
       const auto is_holding = [&](ComponentId c) { return holding.contains(c); };
       if (std::none_of(joint.held.begin(), joint.held.end(), is_holding)) continue;

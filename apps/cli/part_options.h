@@ -29,10 +29,11 @@ void add_flexible_option(CLI::App& command, CommonOptions& options);
 /// names that fit nothing.
 Result<PartChoices> choose_parts(const Assembly& assembly, PairStates& states, const CommonOptions& options);
 
-/// Leaves out of accepted proposals of one part the components that block others that stay in a plan, with the
-/// fasteners that hold them: a rod that is hooked into the arm of a servo stays as long as the arm stays on the servo,
-/// which without its arm still is one part. @return false if there are none
-bool take_back_some(PartChoices& choices, const Plan& plan);
+/// Leaves out of accepted proposals of one part the components that block others that stay in a plan, or else those
+/// that touch such others, with the fasteners that hold them: a rod that is hooked into the arm of a servo stays as
+/// long as the arm stays on the servo, which without its arm still is one part. @param states of the plan @return false
+/// if there are none
+bool take_back_some(PartChoices& choices, const PairStates& states, const Plan& plan);
 /// Takes back whole accepted proposals of one part with components that stay in a plan or block one that does.
 /// @return false if there are none
 bool take_back(PartChoices& choices, const Plan& plan);
