@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -46,6 +47,32 @@ std::set<ComponentId> involved_in(const Plan& plan) {
     for (const Blocker& blocker : e.blockers) involved.insert(blocker.component);
   }
   return involved;
+}
+
+/// Pairs of components that touch or overlap, each in both orders.
+using Touching = std::multimap<ComponentId, ComponentId>;
+
+Touching touching_in(const PairStates& states) {
+  Touching touching;
+  for (const ComponentPair& pair : states.pairs) {
+    if (pair.state == PairState::Clear || pair.state == PairState::Near) continue;
+    touching.emplace(pair.a, pair.b);
+    touching.emplace(pair.b, pair.a);
+  }
+  return touching;
+}
+
+/// True if each of some components touches another one, that the next one, and so on.
+bool are_connected(const std::vector<ComponentId>& components, const Touching& touching) {
+  std::set<ComponentId> missing(components.begin() + 1, components.end());
+  std::vector<ComponentId> reached{components.front()};
+  while (!reached.empty()) {
+    const auto [begin, end] = touching.equal_range(reached.back());
+    reached.pop_back();
+    for (auto pair = begin; pair != end; ++pair)
+      if (missing.erase(pair->second) > 0) reached.push_back(pair->second);
+  }
+  return missing.empty();
 }
 
 std::string proposal_text(const Assembly& assembly, const Proposal& proposal) {
@@ -111,6 +138,7 @@ Result<PartChoices> choose_parts(const Assembly& assembly, PairStates& states, c
 bool take_back_some(PartChoices& choices, const PairStates& states, const Plan& plan) {
   std::set<ComponentId> staying;
   for (const Explanation& e : plan.staying) staying.insert(e.group.begin(), e.group.end());
+  const Touching touching = touching_in(states);
   bool has_changed = false;
   for (Proposal& proposal : choices.accepted) {
     if (proposal.kind == Proposal::Kind::Flexible) continue;
@@ -120,19 +148,19 @@ bool take_back_some(PartChoices& choices, const PairStates& states, const Plan& 
       for (const Blocker& blocker : e.blockers)
         if (members.contains(blocker.component) && !members.contains(e.component)) holding.insert(blocker.component);
     if (holding.empty())
-      for (const ComponentPair& pair : states.pairs) {
-        if (pair.state == PairState::Clear || pair.state == PairState::Near) continue;
-        for (const auto& [own, other] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
-          if (members.contains(own) && !members.contains(other) && staying.contains(other)) holding.insert(own);
-      }
+      for (const auto& [own, other] : touching)
+        if (members.contains(own) && !members.contains(other) && staying.contains(other)) holding.insert(own);
     for (const Joint& joint : plan.joints) {
       const auto is_holding = [&](ComponentId c) { return holding.contains(c); };
       if (std::none_of(joint.held.begin(), joint.held.end(), is_holding)) continue;
       for (const ComponentId c : joint.stack())
         if (members.contains(c)) holding.insert(c);
     }
-    if (holding.empty() || holding.size() + 2 > members.size()) continue;
-    std::erase_if(proposal.components, [&](ComponentId c) { return holding.contains(c); });
+    if (holding.empty()) continue;
+    std::vector<ComponentId> rest = proposal.components;
+    std::erase_if(rest, [&](ComponentId c) { return holding.contains(c); });
+    if (rest.size() < 2 || !are_connected(rest, touching)) continue;  // chips are one part on their board only
+    proposal.components = std::move(rest);
     proposal.reason += fmt::format("; without {} of its components, which block what would stay", holding.size());
     has_changed = true;
   }

@@ -18,8 +18,8 @@ enum class StepPreference {
   Upright,    ///< It does not move downwards, so that nothing has to be turned over. z is up.
   Groups,     ///< Its components equal those of the previous step: equal fasteners together.
   Support,    ///< It takes the support from below away from no component.
-  Tools,      ///< It needs the tool of the previous one. For the order of all steps only.
-  Loose,      ///< It removes what is held no more. For the order of all steps only.
+  Tools,      ///< It needs the tool of the previous one.
+  Loose,      ///< It removes what is held no more.
 };
 
 /// The place of threaded fasteners in the order of steps.
@@ -39,8 +39,8 @@ struct PlanOptions {
   std::size_t slide_effort = 400'000;
   /// Total effort of all random searches, which come after them.
   std::size_t sample_effort = 200'000;
-  /// Criteria for choosing among single components that can be removed straight next, the most important first. Empty:
-  /// the first that is found, those in the direction of the previous step first, which is faster.
+  /// What makes an order of steps good, the most important first; empty: the usual weights (OrderWeights). Direction
+  /// and Upright also choose among the free directions of a component.
   std::vector<StepPreference> preferences{};
   /// The weight of each preference in the order of all steps (OrderWeights); empty: each counts ten times as much as
   /// the next.

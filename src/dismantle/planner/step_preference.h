@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dismantle/planner/plan_disassembly.h"
-#include "dismantle/planner/search/removal_search.h"
 
 #include <map>
 #include <optional>
@@ -24,25 +23,5 @@ struct ChosenPreferences {
 /// the others count 1, and those that count most come first. Nothing if a name is unknown or repeated, or a weight is
 /// no such number.
 std::optional<ChosenPreferences> read_preferences(const std::vector<std::string>& texts);
-
-/// The previous step, as far as criteria compare with it.
-struct StepBefore {
-  ComponentId component;  ///< One of the components that it removed; invalid for the first step.
-  Vec3 exit;              ///< Unit, or zero for the first step.
-};
-
-/// The data for comparing removals.
-struct RemovalChoice {
-  BlockingTable& table;                            ///< Blocking relations.
-  const DirectionLists& directions;                ///< Of each component.
-  const std::vector<ComponentId>& kinds;           ///< As first_of_shape().
-  const std::vector<StepPreference>& preferences;  ///< The most important first.
-  const ComponentSet& early;                       ///< Components that come first where preferences are equal.
-};
-
-/// All single components of `present` outside `never` that can be removed straight, along each free direction, in order
-/// of preference; ties: early ones first, then by size, small ones first.
-std::vector<StraightRemoval> preferred_removals(const RemovalChoice& choice, const ComponentSet& present,
-                                                const ComponentSet& never, const StepBefore& before);
 
 }  // namespace dismantle

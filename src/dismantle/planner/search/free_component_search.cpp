@@ -126,11 +126,11 @@ std::vector<StraightRemoval> FreeComponentSearch::test_batch(Span<const std::uin
 }
 
 std::vector<StraightRemoval> FreeComponentSearch::find(const Executor& executor, const KeepGoing& keep_going) {
-  return find(executor, keep_going, [](ComponentId) { return true; });
+  return find(executor, keep_going, [](const StraightRemoval&) { return true; });
 }
 
 std::vector<StraightRemoval> FreeComponentSearch::find(const Executor& executor, const KeepGoing& keep_going,
-                                                       const std::function<bool(ComponentId)>& counts) {
+                                                       const std::function<bool(StraightRemoval&)>& accepts) {
   for (const Pass pass : {Pass::Unpredicted, Pass::All}) {
     std::uint32_t from = 0;
     for (auto next = waiting(pass).begin(); next != waiting(pass).end() && keep_going();
@@ -139,9 +139,7 @@ std::vector<StraightRemoval> FreeComponentSearch::find(const Executor& executor,
       std::vector<std::uint32_t> places;
       for (; next != waiting(pass).end() && rank(*next) / kFewComponents == batch; ++next) places.push_back(*next);
       std::vector<StraightRemoval> found = test_batch(places, pass, executor, keep_going);
-      std::erase_if(found, [&](const StraightRemoval& removal) {
-        return std::none_of(removal.components.begin(), removal.components.end(), counts);
-      });
+      std::erase_if(found, [&](StraightRemoval& removal) { return !accepts(removal); });
       if (!found.empty()) return found;
       from = places.back() + 1;
     }

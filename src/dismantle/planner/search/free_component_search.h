@@ -29,10 +29,10 @@ class FreeComponentSearch {
   void remove(Span<const ComponentId> components);
   /// The result of free_components() for what is there.
   std::vector<StraightRemoval> find(const Executor& executor, const KeepGoing& keep_going);
-  /// As above, of those that count only, of groups those of which a component does: the others are passed over. @param
-  /// counts (component) -> bool; asked of free ones, by the calling thread
+  /// As above, of those that are accepted only: the others are passed over. @param accepts (removal) -> bool; may
+  /// change the direction; asked by the calling thread
   std::vector<StraightRemoval> find(const Executor& executor, const KeepGoing& keep_going,
-                                    const std::function<bool(ComponentId)>& counts);
+                                    const std::function<bool(StraightRemoval&)>& accepts);
 
  private:
   /// The directions that a pass tests: those without a predicted blocker, or all.

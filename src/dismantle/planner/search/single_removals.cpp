@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/search/single_removals.h"
 
-#include "dismantle/planner/step_preference.h"
+#include "dismantle/planner/order/plan_order.h"
 #include "dismantle/surface/equal_shapes.h"
 
 #include <algorithm>
@@ -9,8 +9,20 @@
 
 namespace dismantle {
 
+namespace {
+
+/// Exits within this distance count as the same direction.
+constexpr double kSameDirection = 1e-6;
+/// Exits that point down by more than this sine require turning the assembly over.
+constexpr double kVertical = 0.2;
+
+}  // namespace
+
 SingleRemovals::SingleRemovals(const SingleRemovalSearch& search)
-    : with_(search), fasteners_(search.assembly.components.size()), exposure_(search.assembly, search.features) {
+    : with_(search),
+      weights_(order_weights(search.options.preferences, search.options.preference_weights)),
+      fasteners_(search.assembly.components.size()),
+      exposure_(search.assembly, search.features) {
   for (std::uint32_t c = 0; c < with_.assembly.components.size(); ++c)
     if (with_.relations.is_fastener(ComponentId(c))) fasteners_.insert(ComponentId(c));
 }
@@ -28,25 +40,25 @@ const std::vector<ComponentId>& SingleRemovals::kinds() {
 std::vector<StraightRemoval> SingleRemovals::find(const ComponentSet& body, const ComponentSet& staying,
                                                   BodySearches& searches, const JointRelations* joints, Among among,
                                                   const Before& before) {
-  const bool by_preferences = !with_.options.preferences.empty();
   if (joints != nullptr && before.step != nullptr) {
-    const auto next =
-        by_preferences ? joints->rest_of_stack(*before.step, body) : joints->next_after(*before.step, kinds(), body);
+    const auto next = joints->next_after(*before.step, kinds(), body);
     if (const auto first = with_.joint_steps.first_free(next, before.direction, body, staying)) return {*first};
   }
-  const auto counts = [&](ComponentId c) {
-    return among == Among::All || fasteners_.has(c) || exposure_.is_exposed(c, body);
+  const auto is_reachable = [&](const StraightRemoval& removal) {
+    return among == Among::All || std::any_of(removal.components.begin(), removal.components.end(), [&](ComponentId c) {
+             return fasteners_.has(c) || exposure_.is_exposed(c, body);
+           });
   };
-  if (by_preferences) {
-    StepBefore last;
-    if (before.step != nullptr) last = {before.step->components.front(), before.step->exit};
-    std::vector<StraightRemoval> preferred = preferred_removals(
-        {with_.table, with_.choice.directions(), kinds(), with_.options.preferences, fasteners_}, body, staying, last);
-    std::erase_if(preferred, [&](const StraightRemoval& removal) { return !counts(removal.components[0]); });
-    return preferred;
-  }
   FreeComponentSearch& search = joints != nullptr ? searches.by_joints : searches.by_collisions;
-  std::vector<StraightRemoval> single = search.find(with_.options.engine.executor, with_.keep_going, counts);
+  std::vector<StraightRemoval> single;
+  // What goes on in the same direction, then what is not turned over, then anything.
+  for (const double most : {0.0, weights_.direction, weights_.direction + weights_.upright}) {
+    if (!single.empty()) break;
+    single = search.find(with_.options.engine.executor, with_.keep_going, [&](StraightRemoval& removal) {
+      if (!fasteners_.has_any(removal.components)) choose_direction(removal, body, before);
+      return cost(removal.direction, before) <= most && is_reachable(removal);
+    });
+  }
   const auto radius = [&](const StraightRemoval& removal) {
     return with_.features[with_.table.leader_of(removal.components[0]).value].radius;
   };
@@ -58,6 +70,29 @@ std::vector<StraightRemoval> SingleRemovals::find(const ComponentSet& body, cons
     return radius(a) < radius(b);
   });
   return single;
+}
+
+double SingleRemovals::cost(DirectionId d, const Before& before) const {
+  const Vec3 exit = with_.table.direction(d), last = before.step != nullptr ? before.step->exit : Vec3{};
+  const bool turns_over = exit.z < -kVertical && !(last.z < -kVertical);
+  return (turns_over ? weights_.upright : 0) + (length(exit - last) > kSameDirection ? weights_.direction : 0);
+}
+
+void SingleRemovals::choose_direction(StraightRemoval& removal, const ComponentSet& body, const Before& before) {
+  std::vector<std::pair<double, DirectionId>> cheaper;
+  const double known = cost(removal.direction, before);
+  for (const DirectionId d : with_.choice.directions()[with_.table.leader_of(removal.components[0]).value])
+    if (const double less = cost(d, before); less < known) cheaper.emplace_back(less, d);
+  std::stable_sort(cheaper.begin(), cheaper.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  ComponentSet others = body;
+  if (!cheaper.empty()) others.erase(removal.components);
+  for (const auto& [less, d] : cheaper)
+    if (with_.keep_going() &&
+        std::none_of(removal.components.begin(), removal.components.end(),
+                     [&, way = d](ComponentId c) { return with_.table.any_blocker(c, way, others).has_value(); })) {
+      removal.direction = d;
+      return;
+    }
 }
 
 }  // namespace dismantle

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dismantle/planner/joint_steps.h"
+#include "dismantle/planner/order/step_order.h"
 #include "dismantle/planner/plan_disassembly.h"
 #include "dismantle/planner/search/exposure.h"
 #include "dismantle/planner/search/free_component_search.h"
@@ -39,7 +40,8 @@ struct BodySearches {
 };
 
 /// Chooses among the single components that can be removed straight next: fasteners and what lies open come before what
-/// others enclose.
+/// others enclose. Parts leave along the free direction that costs least after the step before, fasteners along their
+/// axes.
 class SingleRemovals {
  public:
   /// The components that are considered.
@@ -67,8 +69,13 @@ class SingleRemovals {
 
  private:
   const std::vector<ComponentId>& kinds();
+  /// The cost of a step along a direction, by the weights of `direction` and `upright`.
+  double cost(DirectionId d, const Before& before) const;
+  /// Takes another free direction of a removal that costs less, if there is one.
+  void choose_direction(StraightRemoval& removal, const ComponentSet& body, const Before& before);
 
   SingleRemovalSearch with_;
+  OrderWeights weights_;
   ComponentSet fasteners_;  // of joints
   Exposure exposure_;
   std::vector<ComponentId> kinds_;  // first_of_shape(), once it is needed
