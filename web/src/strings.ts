@@ -154,6 +154,9 @@ const kEnglish = {
   "plan.fix": "Fix the selection",
   "plan.unfix": "Fix the largest",
   "plan.prefer": "Preferences, in the order you tick them",
+  "plan.weight": "Weight of \u201c{name}\u201d",
+  "plan.weight.hint":
+    "How much this counts. Without weights, each preference counts ten times as much as the next one ticked; once one has a weight, those without count 1.",
   "plan.prefer.direction": "Few changes of direction",
   "plan.prefer.upright": "No turning over (z is up)",
   "plan.prefer.groups": "Equal fasteners together",

@@ -30,6 +30,7 @@ export class PlanPanel {
   private readonly reasons = element("ul", { class: "rows", id: "plan-reasons" });
   private fixed: number[] = [];
   private preferred: Preference[] = []; // in the order in which they were ticked
+  private readonly weights = new Map<Preference, HTMLInputElement>();
   private requested: Commands["plan"][0] | null = null; // the plan that this page asked for last
   private shownModel = -1;
   private shownSearch: Search | null = null;
@@ -75,7 +76,7 @@ export class PlanPanel {
 
   private async requestPlan(): Promise<void> {
     const targets = this.selected.checked ? this.session.store.selection : [];
-    this.requested = { targets: [...targets], fixed: [...this.fixed], prefer: [...this.preferred] };
+    this.requested = { targets: [...targets], fixed: [...this.fixed], prefer: this.preferences() };
     await this.session.send("plan", this.requested);
   }
 
@@ -86,12 +87,32 @@ export class PlanPanel {
   }
 
   private preference(preference: Preference): HTMLElement {
+    const name = text(`plan.prefer.${preference}`);
     const box = element("input", { type: "checkbox", id: `plan-prefer-${preference}` });
+    const weight = element("input", {
+      type: "number",
+      step: "any",
+      min: "0",
+      id: `plan-weight-${preference}`,
+      "aria-label": text("plan.weight", { name }),
+      title: text("plan.weight.hint"),
+      hidden: true,
+    });
+    this.weights.set(preference, weight);
     box.addEventListener("change", () => {
       this.preferred = this.preferred.filter((p) => p !== preference);
       if (box.checked) this.preferred.push(preference);
+      weight.hidden = !box.checked;
     });
-    return element("label", {}, box, element("span", {}, text(`plan.prefer.${preference}`)));
+    return element("div", { class: "plan-prefer" }, element("label", {}, box, element("span", {}, name)), weight);
+  }
+
+  /// The preferences that are ticked, with the weights that are given.
+  private preferences(): string[] {
+    return this.preferred.map((p) => {
+      const weight = this.weights.get(p)?.valueAsNumber ?? Number.NaN;
+      return weight > 0 ? `${p}=${weight}` : p;
+    });
   }
 
   private toggleFixed(): void {

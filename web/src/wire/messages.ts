@@ -200,7 +200,7 @@ export interface Commands {
   isolate: [Components, object];
   restore: [object, object];
   reset: [object, object];
-  plan: [{ targets?: number[]; fixed?: number[]; prefer?: Preference[]; effort?: number }, { job: number }];
+  plan: [{ targets?: number[]; fixed?: number[]; prefer?: string[]; effort?: number }, { job: number }];
   find_path: [Components, { job: number }];
   why: [Components, { job: number }];
   instructions: [

@@ -85,8 +85,8 @@ test("a plan for the selection moves only what blocks it", async () => {
   assert.equal(await viewer.page.isVisible("#plan-panel"), false);
 });
 
-test("preferences are sent in the order they were ticked", async () => {
-  await viewer.press("l");
+/// Presses "Find" for everything. @return what the page sends
+async function planSent(): Promise<{ prefer: string[] }> {
   const sent = viewer.page.evaluate(
     () =>
       new Promise((resolve) => {
@@ -100,16 +100,38 @@ test("preferences are sent in the order they were ticked", async () => {
       }),
   );
   await viewer.page.check("#plan-all");
+  await viewer.page.click("#plan-find");
+  return (await sent) as { prefer: string[] };
+}
+
+test("preferences are sent in the order they were ticked", async () => {
+  await viewer.press("l");
   await viewer.page.check("#plan-prefer-support");
   await viewer.page.check("#plan-prefer-upright");
   await viewer.page.check("#plan-prefer-groups");
   await viewer.page.uncheck("#plan-prefer-upright");
-  await viewer.page.click("#plan-find");
-  assert.deepEqual(((await sent) as { prefer: string[] }).prefer, ["support", "groups"]);
+  assert.deepEqual((await planSent()).prefer, ["support", "groups"]);
   await waitForSearch("plan");
   await viewer.idle();
   assert.ok((await search())!.steps > 10);
   await viewer.page.uncheck("#plan-prefer-support");
+  await viewer.page.uncheck("#plan-prefer-groups");
+  await viewer.click("#guide-close");
+  await viewer.press("l");
+});
+
+test("weights of preferences are sent with them", async () => {
+  await viewer.press("l");
+  assert.equal(await viewer.page.isVisible("#plan-weight-groups"), false);
+  await viewer.page.check("#plan-prefer-tools");
+  await viewer.page.check("#plan-prefer-groups");
+  await viewer.page.fill("#plan-weight-groups", "2.5");
+  await viewer.page.fill("#plan-weight-tools", "-1"); // no weight
+  assert.deepEqual((await planSent()).prefer, ["tools", "groups=2.5"]);
+  await waitForSearch("plan");
+  await viewer.idle();
+  await viewer.page.fill("#plan-weight-groups", "");
+  await viewer.page.uncheck("#plan-prefer-tools");
   await viewer.page.uncheck("#plan-prefer-groups");
   await viewer.click("#guide-close");
   await viewer.press("l");
