@@ -60,7 +60,8 @@ struct PartOverlaps {
   /// Overlaps with equal parts.
   struct With {
     std::size_t line = 0;                 ///< Line of the bill of materials.
-    double least = 0, depth = 0;          ///< The smallest and the largest depth [mm].
+    double least = 0;                     ///< The smallest depth [mm].
+    double depth = 0;                     ///< The largest depth [mm].
     PairState state = PairState::Free;    ///< Overlapping, or Free.
     std::vector<ComponentId> components;  ///< Each once.
   };

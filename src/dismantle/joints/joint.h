@@ -28,7 +28,9 @@ std::string screwing_in_text(const Unscrewing& unscrewing);
 
 /// The ring inside a lock nut, which comes off with the nut.
 struct NutInsert {
-  ComponentId insert, nut;
+  ComponentId insert;  ///< The ring.
+  ComponentId nut;     ///< The nut that it is in.
+  /// By `insert`, then by `nut`.
   friend auto operator<=>(const NutInsert&, const NutInsert&) = default;
 };
 
