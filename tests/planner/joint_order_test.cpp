@@ -34,6 +34,18 @@ TEST(JointOrder, TakesTheScrewsThenTheCoverThenWhatIsInside) {
   EXPECT_FALSE(planned.plan.steps[4].unscrewing);
 }
 
+TEST(JointOrder, MarksWhatComesOutOfAClosedCase) {
+  for (const bool is_closed : {false, true}) {
+    PlanOptions options;
+    options.fixed = {ComponentId(0)};
+    if (is_closed) options.fixed.push_back(ComponentId(1));
+    const Planned planned(scenes::covered_case(), options);
+    ASSERT_LT(planned.place("chip"), planned.plan.steps.size());
+    for (std::size_t k = 0; k < planned.plan.steps.size(); ++k)
+      EXPECT_EQ(planned.plan.steps[k].is_enclosed, is_closed && k == planned.place("chip")) << planned.steps()[k];
+  }
+}
+
 TEST(JointOrder, OpensCasesWhereFastenersAreIgnored) {
   const Planned planned(scenes::covered_case(), with(FastenerOrder::Ignored));
   EXPECT_TRUE(planned.plan.complete());

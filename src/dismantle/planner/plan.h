@@ -49,8 +49,8 @@ struct PlanStep {
   /// Fasteners that still hold some of the components when they move; for a fastener that is pulled across its axis,
   /// what it is screwed into. Ascending; empty unless there was no other step.
   std::vector<ComponentId> still_held_by{};
-  /// Others enclose all of its components when they are removed (Exposure): they come out through an opening. Not for
-  /// fasteners.
+  /// Others enclose all of its components, none of which is a fastener, when they are removed (Exposure): they come out
+  /// through an opening.
   bool is_enclosed = false;
 };
 

@@ -96,7 +96,7 @@ class Planner {
     plan_ = in_good_order(plan_, {planned_, fasteners_, relations_, table_, validator_,
                                   order_weights(options_.preferences, options_.preference_weights),
                                   options_.engine.executor, keep_going_, describe_});
-    find_enclosed_steps(planned_, relations_, keep_going_, plan_);
+    find_enclosed_steps(planned_, fasteners_, keep_going_, plan_);
     if (!options_.wants_reasons || options_.wants_reasons(plan_)) {
       explain_left();
     } else {
