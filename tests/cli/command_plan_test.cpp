@@ -256,8 +256,8 @@ TEST_F(CliPlan, WritesThePlainPlanWithoutPreferences) {
   const Plan plain = plan_disassembly(assembly, pairs, {});
   EXPECT_EQ(read_all(in("all.path.json")), path_text(plan_path(assembly, pairs, plain)));
   // Preferences can change the path, so that the test above means something.
-  ASSERT_EQ(run("plan parts -o direction.path.json --prefer direction").exit_code, 0);
-  EXPECT_NE(read_all(in("all.path.json")), read_all(in("direction.path.json")));
+  ASSERT_EQ(run("plan parts -o upright.path.json --prefer upright").exit_code, 0);
+  EXPECT_NE(read_all(in("all.path.json")), read_all(in("upright.path.json")));
 }
 
 TEST_F(CliPlan, OrdersStepsByThePreferencesGiven) {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace dismantle {
 namespace {
 
@@ -64,18 +66,25 @@ TEST(StepPreference, GoesOnInTheSameDirection) {
   cases.add(cube(4), {kAside});
   cases.add(cube(5), {kUp});
   cases.add(cube(6), {kAside});
-  EXPECT_EQ(cases.order({StepPreference::Support}), (Order{0, 1, 2})) << "small ones first";
   EXPECT_EQ(cases.order({StepPreference::Direction}), (Order{0, 2, 1}));
 }
 
 TEST(StepPreference, TakesEqualComponentsTogether) {
-  const auto small = cube(4);
+  const auto small = cube(4), large = cube(5);
   Cases cases;
-  cases.add(small, {kAside});
-  cases.add(cube(5), {kAside});
-  cases.add(small, {kUp});
-  EXPECT_EQ(cases.order({StepPreference::Direction, StepPreference::Groups}), (Order{1, 0, 2}));
-  EXPECT_EQ(cases.order({StepPreference::Groups, StepPreference::Direction}), (Order{2, 0, 1}));
+  for (const Vec3& open : {kAside, kUp}) {
+    cases.add(small, {open});
+    cases.add(large, {open});
+  }
+  const auto first_two = [&](const Preferences& preferences) {
+    const Order order = cases.order(preferences);
+    EXPECT_EQ(order.size(), 4u);
+    return std::set<std::uint32_t>{order.at(0), order.at(1)};
+  };
+  const std::set<std::uint32_t> by_direction = first_two({StepPreference::Direction, StepPreference::Groups});
+  EXPECT_TRUE(by_direction == (std::set{0u, 1u}) || by_direction == (std::set{2u, 3u}));
+  const std::set<std::uint32_t> by_kind = first_two({StepPreference::Groups, StepPreference::Direction});
+  EXPECT_TRUE(by_kind == (std::set{0u, 2u}) || by_kind == (std::set{1u, 3u}));
 }
 
 TEST(StepPreference, TurnsNothingOverWhileSomethingElseCanBeDone) {

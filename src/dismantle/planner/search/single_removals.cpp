@@ -45,17 +45,17 @@ std::vector<StraightRemoval> SingleRemovals::find(const ComponentSet& body, cons
     if (const auto first = with_.joint_steps.first_free(next, before.direction, body, staying)) return {*first};
   }
   const auto is_reachable = [&](const StraightRemoval& removal) {
-    return among == Among::All || std::any_of(removal.components.begin(), removal.components.end(), [&](ComponentId c) {
-             return fasteners_.has(c) || exposure_.is_exposed(c, body);
-           });
+    return among == Among::All || std::any_of(removal.components.begin(), removal.components.end(),
+                                              [&](ComponentId c) { return exposure_.is_exposed(c, body); });
   };
   FreeComponentSearch& search = joints != nullptr ? searches.by_joints : searches.by_collisions;
   std::vector<StraightRemoval> single;
-  // What goes on in the same direction, then what is not turned over, then anything.
+  // Fasteners, and what goes on in the same direction; then what is not turned over; then anything.
   for (const double most : {0.0, weights_.direction, weights_.direction + weights_.upright}) {
     if (!single.empty()) break;
     single = search.find(with_.options.engine.executor, with_.keep_going, [&](StraightRemoval& removal) {
-      if (!fasteners_.has_any(removal.components)) choose_direction(removal, body, before);
+      if (fasteners_.has_any(removal.components)) return true;
+      choose_direction(removal, body, before);
       return cost(removal.direction, before) <= most && is_reachable(removal);
     });
   }
