@@ -256,8 +256,8 @@ class JointSearch {
     const double outer = AxialRays(assembly_[by], frame, middle).outer(0);
     const double radius = (diameter / 2 + std::max(outer, diameter / 2)) / 2;
     for (const ComponentId c : near(by, 2 * beyond)) {
-      if (is_inside(c, by)) {
-        if (is(by, Kind::Nut)) joint.nut_inserts.push_back({c, by});
+      if (is(by, Kind::Nut) && is_inside(c, by)) {
+        joint.nut_inserts.push_back({c, by});
         continue;
       }
       const AxialRays rays(assembly_[c], frame, positions);

@@ -12,7 +12,7 @@
 
 namespace dismantle {
 
-/// A criterion for choosing among several possible next steps, and for the order of all.
+/// What makes a step a good one after those before it.
 enum class StepPreference {
   Direction,  ///< It has the direction of the previous step.
   Upright,    ///< It does not move downwards, so that nothing has to be turned over. z is up.

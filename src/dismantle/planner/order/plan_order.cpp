@@ -19,8 +19,6 @@ namespace {
 
 /// Directions within this sine are equal.
 constexpr double kSameDirection = 0.02;
-/// Exits that point up or down by more than this sine are made from above or from below.
-constexpr double kVertical = 0.2;
 /// A criterion counts as many times as much as the next one.
 constexpr double kMoreImportant = 10;
 

@@ -22,6 +22,9 @@ struct OrderedStep {
   std::vector<std::uint32_t> rests_on;  ///< Steps that remove what supports its components from below.
 };
 
+/// Exits that point up or down by more than this sine are made from above or from below.
+inline constexpr double kVertical = 0.2;
+
 /// The cost of each thing that makes an order worse.
 struct OrderWeights {
   double groups = 1;       ///< A step of another kind than the one before.

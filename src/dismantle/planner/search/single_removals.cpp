@@ -13,8 +13,6 @@ namespace {
 
 /// Exits within this distance count as the same direction.
 constexpr double kSameDirection = 1e-6;
-/// Exits that point down by more than this sine require turning the assembly over.
-constexpr double kVertical = 0.2;
 
 }  // namespace
 
