@@ -125,7 +125,11 @@ TEST(WorkInstructions, TakeAScrewAndItsWasherForOne) {
   EXPECT_EQ(said(out.steps[0], InstructionNote::Kind::Motion).substr(0, 8), "Unscrew ");
   EXPECT_EQ(said(out.steps[0], InstructionNote::Kind::Warning).find("as a unit"), std::string::npos);
   EXPECT_EQ(said(out.steps[0], InstructionNote::Kind::Tool), "8 mm spanner (wrench)\n");
-  EXPECT_NE(said(out.steps[1], InstructionNote::Kind::Motion).substr(0, 8), "Unscrew ") << "its nut is gone";
+  // Its nut is gone.
+  EXPECT_EQ(out.steps[1].title.substr(0, 7), "Remove ") << out.steps[1].title;
+  EXPECT_EQ(said(out.steps[1], InstructionNote::Kind::Motion), "Straight up.\n");
+  EXPECT_EQ(said(out.steps[1], InstructionNote::Kind::Tool), "");
+  EXPECT_EQ(said(out.steps[1], InstructionNote::Kind::Warning).find("thread"), std::string::npos);
 }
 
 TEST(WorkInstructions, AreReversedForAssembly) {

@@ -20,6 +20,8 @@ class JointNotes {
   /// The component that a tool turns for a removal: the only one, or the fastener of a set of it and its washers;
   /// invalid for other sets.
   ComponentId turned_in(const RemovalMove& removal) const;
+  /// True for a screw or nut that was screwed into or onto something.
+  bool is_of_joint(ComponentId c) const { return relations_.is_fastener(c); }
   /// How a removal unscrews a fastener along its first leg; nothing if that turns, or no thread is in.
   /// @param leg the first one of the removal
   std::optional<Unscrewing> unscrewing(const WorkStep& step, const RemovalMove& removal, const Leg& leg) const;

@@ -134,17 +134,23 @@ class Writer {
     for (const ComponentId c : surroundings(step, removal))
       around.extend(bounds_of(assembly_, {&c, 1}, step.before[c.value]));
     if (overlaps(bounds_of(assembly_, removal.components, removal.poses.back()), around)) return "Move";
-    if (std::any_of(legs.begin(), legs.end(), is_screwing) || is_unscrewed(removal, legs))
+    if (std::any_of(legs.begin(), legs.end(), is_screwing) || is_unscrewed(step, legs))
       return is_forward_ ? "Unscrew" : "Screw in";
     return is_forward_ ? "Remove" : "Mount";
   }
 
   /// True for a screw, a nut or a standoff that comes out along its axis, alone or with its washers.
-  bool is_unscrewed(const RemovalMove& removal, const std::vector<Leg>& legs) const {
+  bool is_unscrewed(const WorkStep& step, const std::vector<Leg>& legs) const {
+    const RemovalMove& removal = step.removals.front();
     const ComponentId c = joints_.turned_in(removal);
-    if (!c.valid() || legs.empty()) return false;
+    if (!c.valid() || legs.empty() || is_out_of_thread(c, step, legs)) return false;
     return fasteners_[c.value] && is_threaded(*fasteners_[c.value]) &&
            comes_along_axis(assembly_[c], *fasteners_[c.value], removal, legs.front());
+  }
+
+  /// True for a fastener whose counterpart is gone: a bolt without its nut.
+  bool is_out_of_thread(ComponentId c, const WorkStep& step, const std::vector<Leg>& legs) const {
+    return joints_.is_of_joint(c) && std::none_of(legs.begin(), legs.end(), is_screwing) && !unscrewing(step, legs);
   }
 
   std::string subject(const WorkStep& step, const std::vector<CountedPart>& parts) const {
@@ -224,7 +230,7 @@ class Writer {
   void note_tools(const WorkStep& step, const std::vector<Leg>& legs, Instruction& instruction) {
     const RemovalMove& removal = step.removals.front();
     const ComponentId c = joints_.turned_in(removal);
-    if (!c.valid() || legs.empty()) return;
+    if (!c.valid() || legs.empty() || is_out_of_thread(c, step, legs)) return;
     const ToolNotes notes = tool_notes(assembly_[c], fasteners_[c.value], removal, legs, options_.direction);
     for (const Tool& tool : notes.tools) instruction.notes.push_back({Kind::Tool, tool.text});
     // The turns of a joint tell more than its thread.
