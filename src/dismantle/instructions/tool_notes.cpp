@@ -15,9 +15,9 @@ namespace {
 
 /// Maximum sine of the angle between a motion and the axis of a drive or a thread that it uses.
 constexpr double kAlong = 0.02;
-/// A hexagon on a part that reaches further from its axis than so many times its width is no drive, unless the part is
-/// turned.
-constexpr double kWidestHead = 1.5;
+/// A hexagon on a part that is not turned is no drive if the part reaches further from its axis than so many times its
+/// width, or if it is wider than that of M27 [mm].
+constexpr double kWidestHead = 1.5, kWidestSpanner = 41;
 
 /// True if an axis is parallel to the direction or the axis of a leg.
 bool lies_along(const Vec3& axis, const Leg& leg) {
@@ -67,10 +67,10 @@ ToolNotes notes_of_shape(const TriangleMesh& mesh, const Mat3& turned, const std
     if (!lies_along(turned * axis.direction, legs.front())) continue;
     const double radius = radius_about(axis, mesh);
     for (const HexagonDrive& drive : hexagon_drives(mesh, axis)) {
-      if (!is_turned && radius > kWidestHead * drive.across_flats) continue;
-      tools.insert(
-          tool_for(drive.kind == HexagonDrive::Kind::Head ? Fastener::Drive::Hexagon : Fastener::Drive::HexSocket,
-                   drive.across_flats));
+      const double width = drive.across_flats;
+      if (!is_turned && (radius > kWidestHead * width || nominal_width(width) > kWidestSpanner)) continue;
+      tools.insert(tool_for(
+          drive.kind == HexagonDrive::Kind::Head ? Fastener::Drive::Hexagon : Fastener::Drive::HexSocket, width));
     }
   }
   notes.tools.assign(tools.begin(), tools.end());

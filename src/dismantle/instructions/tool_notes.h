@@ -28,7 +28,7 @@ struct ToolNotes {
 
 /// The tools and threads of a component along the first leg of its removal: of the fastener that it is; for all
 /// other components of modelled threads about the axis of the motion, and of hexagons about it, where the component is
-/// turned or not much wider than the hexagon.
+/// turned or of the size of a fastener.
 /// @pre `legs` is not empty
 ToolNotes tool_notes(const Component& component, const std::optional<Fastener>& fastener, const RemovalMove& removal,
                      const std::vector<Leg>& legs, PathDirection direction);
