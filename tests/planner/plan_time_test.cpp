@@ -17,23 +17,30 @@ TEST(PlanTime, HasNoEndWithoutALimit) {
   PlanTime time(0);
   wait_until(time, 0.01);
   EXPECT_TRUE(time.is_left());
+  time.begin_order();
+  EXPECT_TRUE(time.is_left());
   time.begin_reasons();
   EXPECT_TRUE(time.is_left());
   EXPECT_FALSE(time.has_run_out());
 }
 
-TEST(PlanTime, LeavesSomeTimeForReasonsAfterStepsHaveRunOut) {
+TEST(PlanTime, LeavesSomeTimeForOrderAndReasonsAfterStepsHaveRunOut) {
   PlanTime time(1e9);
   EXPECT_TRUE(time.is_left());
   PlanTime none(1e-9);
   EXPECT_FALSE(none.is_left());
   EXPECT_TRUE(none.is_over());
   PlanTime shared(0.5);
-  wait_until(shared, 0.46);
-  EXPECT_FALSE(shared.is_left()) << "a tenth is for reasons";
-  shared.begin_reasons();
+  wait_until(shared, 0.43);
+  EXPECT_FALSE(shared.is_left()) << "the rest is for order and reasons";
+  shared.begin_order();
   EXPECT_FALSE(shared.is_over());
   EXPECT_TRUE(shared.has_run_out()) << "some steps were not sought";
+  wait_until(shared, 0.465);
+  EXPECT_FALSE(shared.is_left());
+  shared.begin_reasons();
+  EXPECT_TRUE(shared.is_left());
+  EXPECT_TRUE(shared.has_run_out());
   wait_until(shared, 0.51);
   EXPECT_FALSE(shared.is_left());
 }
@@ -41,6 +48,8 @@ TEST(PlanTime, LeavesSomeTimeForReasonsAfterStepsHaveRunOut) {
 TEST(PlanTime, SeeksNoReasonsAfterItWasCancelled) {
   PlanTime time(0);
   time.cancel();
+  EXPECT_FALSE(time.is_left());
+  time.begin_order();
   EXPECT_FALSE(time.is_left());
   time.begin_reasons();
   EXPECT_FALSE(time.is_left());

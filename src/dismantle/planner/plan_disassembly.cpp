@@ -93,6 +93,7 @@ class Planner {
     }
     take_apart_bodies();
     plan_.joints = joints_;
+    time_.begin_order();
     plan_ = in_good_order(plan_, {planned_, fasteners_, relations_, table_, validator_,
                                   order_weights(options_.preferences, options_.preference_weights),
                                   options_.engine.executor, keep_going_, describe_});

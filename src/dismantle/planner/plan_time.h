@@ -6,7 +6,8 @@
 
 namespace dismantle {
 
-/// The time of a plan, from its start: most of the limit is for steps, the rest for the reasons why components stay.
+/// The time of a plan, from its start: most of the limit is for steps, the rest for their order and for the reasons why
+/// components stay.
 class PlanTime {
  public:
   /// @param limit [s]; 0 for none
@@ -23,18 +24,23 @@ class PlanTime {
   void cancel() { is_cancelled_ = true; }
   /// True if the plan was cancelled or a call of is_left() found that time is up.
   bool is_over() const { return is_up_ || is_cancelled_; }
-  /// Ends the time for steps; reasons may take what is left of the limit. @pre no other thread uses this
-  void begin_reasons() {
+  /// Ends the time for steps; that for their order begins. @pre no other thread uses this
+  void begin_order() {
     has_missed_steps_ = is_over();
+    end_ = kShareOfOrder * limit_;
+    is_up_ = false;
+  }
+  /// Reasons may take what is left of the limit. @pre no other thread uses this
+  void begin_reasons() {
     end_ = limit_;
     is_up_ = false;
   }
-  /// True if the search for steps or reasons ended early.
+  /// True if the search for steps ended early, or what is done now did.
   bool has_run_out() const { return has_missed_steps_ || is_over(); }
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr double kShareOfSteps = 0.9;
+  static constexpr double kShareOfSteps = 0.85, kShareOfOrder = 0.92;  // up to its end
 
   Clock::time_point start_ = Clock::now();
   double limit_, end_;
