@@ -71,6 +71,8 @@ const kEnglish = {
   "guide.close": "Close the guide",
   export: "Export",
   "export.reverse": "Reverse: assembly instead of disassembly",
+  "export.source": "Moves of",
+  "export.source.recording": "What was recorded",
   "export.html": "Offline page (HTML)",
   "export.glb": "Animation (GLB)",
   "export.path": "Path file (JSON)",
@@ -132,15 +134,15 @@ const kEnglish = {
   removal: "Removal",
   findPath: "Find a path",
   why: "What blocks it?",
-  "reason.by": "Blocked along {direction} by {names}.",
-  "reason.free": "It can be removed along {direction}.",
-  "reason.chain": "Take off {names} first; then it comes out along {direction}.",
+  "reason.by": "Blocked {along} by {names}.",
+  "reason.free": "It can be removed {along}.",
+  "reason.chain": "Take off {names} first; then it comes out {along}.",
   "reason.path": "Nothing has to come off first, but it does not come out straight: find a path (N).",
   "reason.details": "Details",
   "reason.after": "after {distance}",
   "reason.locked": "Interlocked with {names}",
   "reason.locked.many": "Interlocked with {count} other components",
-  "reason.line": "{name}: blocked along {direction} by {names}",
+  "reason.line": "{name}: blocked {along} by {names}",
   "names.more": "{names} and {count} more",
   "names.and": "{names} and {last}",
   "names.counted": "{count} × {name}",
@@ -305,6 +307,12 @@ export function countText(count: number, noun: string): string {
 /// Directions that differ by less from an axis are called by its name alone, or by how much they are off it.
 const kOnAxis = 0.9999;
 const kNearAxis = Math.cos(Math.PI / 6);
+
+/// "along +Z", "near +Z (12° off)", or "between +X and −Z", for sentences.
+export function alongText(direction: Triple): string {
+  const name = directionText(direction);
+  return /^[+−]/.test(name) ? `along ${name}` : name;
+}
 
 /// A unit vector as text: "+Z", "near +Z (12° off)", or "between +X and −Z".
 export function directionText(direction: Triple): string {

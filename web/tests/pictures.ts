@@ -153,7 +153,38 @@ async function firstMinutes(viewer: Viewer): Promise<void> {
   const seconds = (performance.now() - begin) / 1000;
   console.log(`three components taken out, and the page exported, in ${seconds.toFixed(1)} s`);
   if (seconds > 120) throw new Error("a newcomer's first steps take more than two minutes");
+  await firstInstructions(viewer);
+  const all = (performance.now() - begin) / 1000;
+  console.log(`everything planned, and its instructions printed, in ${all.toFixed(1)} s`);
+  if (all > 300) throw new Error("a newcomer's way to printed instructions takes more than five minutes");
   await offlinePage(page);
+}
+
+/// Plans the disassembly of everything and prints its work instructions, by clicks alone.
+async function firstInstructions(viewer: Viewer): Promise<void> {
+  await viewer.page.click("#plan");
+  await viewer.page.click("#plan-find");
+  await viewer.page.waitForFunction(
+    () => window.dismantle!.app.session.store.state!.search?.kind === "plan",
+    undefined,
+    { timeout: 120_000 },
+  );
+  await shoot(viewer, "first-plan");
+  await viewer.page.click("#plan");
+  await viewer.click("#export");
+  await viewer.page.selectOption("#export-source", "guide");
+  await viewer.page.click("#instructions-preview");
+  const preview = viewer.page.frameLocator("#instructions-preview-dialog iframe");
+  await preview.locator(".step img").first().waitFor({ timeout: 120_000 });
+  await viewer.page.evaluate(() => {
+    const frame = document.querySelector<HTMLIFrameElement>("#instructions-preview-dialog iframe")!;
+    frame.contentWindow!.print = () => document.body.setAttribute("data-printed", "yes");
+  });
+  await shoot(viewer, "first-instructions");
+  await viewer.page.click("#preview-print");
+  await viewer.page.locator("body[data-printed]").waitFor();
+  await viewer.page.keyboard.press("Escape");
+  await viewer.page.keyboard.press("Escape");
 }
 
 async function workshop(viewer: Viewer): Promise<void> {

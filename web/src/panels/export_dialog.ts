@@ -5,6 +5,7 @@ import { VideoRecorder, videoFormat } from "../scene/video_recorder.ts";
 import type { Session } from "../session.ts";
 import { type TextKey, text } from "../strings.ts";
 import type { Source } from "../wire/messages.ts";
+import { guideTitle } from "./guide_panel.ts";
 import { InstructionsPart } from "./instructions_part.ts";
 
 /// A file that the server exports (docs/wire.md), and the ending of its name.
@@ -41,6 +42,13 @@ export class ExportDialog {
   private readonly videoButton: HTMLButtonElement;
   private readonly instructions: InstructionsPart;
   private recording = false;
+  private readonly sources = element(
+    "select",
+    { id: "export-source" },
+    element("option", { value: "recording" }, text("export.source.recording")),
+    element("option", { value: "guide" }),
+  );
+  private readonly sourceField = element("label", { class: "check" }, text("export.source"), this.sources);
 
   constructor(private readonly session: Session) {
     const imageButton = button({
@@ -62,8 +70,10 @@ export class ExportDialog {
       () => this.source,
       () => this.reverse.checked && !this.reverse.disabled,
     );
+    this.sources.addEventListener("change", () => this.update());
     this.node.append(
       dialogHeader(text("export"), () => this.node.close()),
+      this.sourceField,
       element("label", { class: "check" }, this.reverse, element("span", {}, text("export.reverse"))),
       element(
         "div",
@@ -85,6 +95,7 @@ export class ExportDialog {
 
   open(): void {
     setText(this.status, "");
+    this.sources.value = this.session.store.state?.playback?.source ?? "recording";
     this.instructions.reset();
     this.update();
     this.node.showModal();
@@ -102,7 +113,8 @@ export class ExportDialog {
 
   private get source(): Source {
     const { state } = this.session.store;
-    return state?.playback?.source ?? (state?.moves.length === 0 && state.guide ? "guide" : "recording");
+    if (!state?.guide) return "recording";
+    return state.moves.length === 0 || this.sources.value === "guide" ? "guide" : "recording";
   }
 
   private async fetch({ file, ending, reversible }: Format): Promise<void> {
@@ -169,6 +181,8 @@ export class ExportDialog {
 
   private update(): void {
     const { state, control } = this.session.store;
+    this.sourceField.hidden = !state?.guide || state.moves.length === 0;
+    setText(this.sources.options[1], guideTitle(state?.guide?.name ?? ""));
     const none = this.session.movesOf(this.source).length === 0;
     for (const { format, button: node } of this.buttons) node.disabled = !state || (format.needsMoves && none);
     this.reverse.disabled = none;

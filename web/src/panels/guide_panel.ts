@@ -145,7 +145,7 @@ export class GuidePanel {
     const { state } = this.session.store;
     const count = this.steps.length;
     const step = this.steps[this.step];
-    setText(this.title, titleOf(state?.guide?.name ?? ""));
+    setText(this.title, guideTitle(state?.guide?.name ?? ""));
     this.progress.value = count > 0 ? this.step / count : 0;
     const names = step?.components.map((c) => this.session.nameOf(c)).join(", ") ?? "";
     const known = this.practice.checked
@@ -211,7 +211,7 @@ export class GuidePanel {
 }
 
 /// The title of a guide, from the name of its file; the planner's is called plan.path.json.
-function titleOf(file: string): string {
+export function guideTitle(file: string): string {
   return file === "plan.path.json" ? text("guide.plan") : file.replace(/\.path\.json$/, "");
 }
 

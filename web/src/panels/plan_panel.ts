@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { button, element, linkButton, panelHeader, relabel, setText } from "../dom.ts";
 import type { Session } from "../session.ts";
-import { countText, directionText, text } from "../strings.ts";
+import { alongText, countText, text } from "../strings.ts";
 import { type Commands, kPreferences, type Preference, type Search } from "../wire/messages.ts";
 
 /// A longer search takes so many times the effort of the one before.
@@ -161,7 +161,7 @@ export class PlanPanel {
       ...(search?.reasons ?? []).map(({ component, direction, blockers }) => {
         const name = this.session.nameOf(component);
         const names = this.session.namesOf(blockers.map((blocker) => blocker.component));
-        const line = text("reason.line", { name, direction: directionText(direction), names });
+        const line = text("reason.line", { name, along: alongText(direction), names });
         return element(
           "li",
           {},

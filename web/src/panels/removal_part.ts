@@ -2,7 +2,7 @@
 import { button, element } from "../dom.ts";
 import { kMaxNames } from "../names.ts";
 import type { Session } from "../session.ts";
-import { directionText, text } from "../strings.ts";
+import { alongText, text } from "../strings.ts";
 import { lengthText, shownUnit } from "../units.ts";
 import type { Reason, Search } from "../wire/messages.ts";
 import { componentRow } from "./component_row.ts";
@@ -59,10 +59,10 @@ export class RemovalPart {
     const names = this.session.groupedNamesOf(blockers.map(({ component }) => component));
     const message =
       blockers.length === 0
-        ? text("reason.free", { direction: directionText(direction) })
+        ? text("reason.free", { along: alongText(direction) })
         : chain
           ? this.chainText(chain)
-          : text("reason.by", { direction: directionText(direction), names });
+          : text("reason.by", { along: alongText(direction), names });
     const rows = blockers.map(({ component, distance }) => {
       const after = distance === null ? "" : text("reason.after", { distance: lengthText(distance) });
       return componentRow(this.session, component, after, "blocks");
@@ -70,7 +70,7 @@ export class RemovalPart {
     const others = locked.filter((c) => c !== self);
     const sentence = element("p", { id: "reason-sentence" }, message);
     if (rows.length === 0) return [sentence];
-    const along = element("p", { class: "muted" }, text("reason.by", { direction: directionText(direction), names }));
+    const along = element("p", { class: "muted" }, text("reason.by", { along: alongText(direction), names }));
     const more = others.length > 0 ? element("p", { class: "muted" }, this.lockedText(others)) : null;
     const summary = element("summary", {}, text("reason.details"));
     const list = element("ul", { class: "rows" }, ...rows);
@@ -81,7 +81,7 @@ export class RemovalPart {
     if (before.length === 0) return text("reason.path");
     return text("reason.chain", {
       names: this.session.groupedNamesOf(before.flat()),
-      direction: directionText(direction),
+      along: alongText(direction),
     });
   }
 

@@ -48,6 +48,19 @@ test("the previewed page is saved as it is shown", async () => {
   assert.match(bytes.toString(), /^<!DOCTYPE html>[\s\S]*Disassembly of School microscope/);
 });
 
+test("the preview is printed as it is shown", async () => {
+  const printed = await viewer.page.evaluate(() => {
+    const frame = document.querySelector<HTMLIFrameElement>("#instructions-preview-dialog iframe")!;
+    let title = "";
+    frame.contentWindow!.print = () => {
+      title = frame.contentDocument!.querySelector("h1")!.innerText;
+    };
+    document.querySelector<HTMLButtonElement>("#preview-print")!.click();
+    return title;
+  });
+  assert.equal(printed, "Disassembly of School microscope");
+});
+
 test("the PDF is made from the preview, too, on the chosen paper", async () => {
   const a4 = await viewer.saved("#preview-pdf");
   assert.equal(a4.name, "microscope.pdf");

@@ -184,7 +184,7 @@ test("blockers are named, highlighted, and pointed at by arrows", async () => {
   await viewer.idle();
   const [reason] = (await search())!.reasons;
   assert.ok(reason.blockers.length > 0);
-  assert.match(await viewer.page.locator("#reason-sentence").innerText(), /^(Take off .* first|Blocked along .* by)/);
+  assert.match(await viewer.page.locator("#reason-sentence").innerText(), /^(Take off .* first|Blocked .* by)/);
   assert.equal(await arrows(), Math.min(6, reason.blockers.length));
   await viewer.page.click("#reason summary");
   const marked = await viewer.page.locator("#reason li").allInnerTexts();
@@ -202,9 +202,36 @@ test("what has to come off first is the shortest chain that the planner finds", 
   const { chain } = (await search())!;
   assert.ok(chain !== null && chain.before.length > 0);
   const sentence = await viewer.page.locator("#reason-sentence").innerText();
-  assert.match(sentence, /^Take off .* first; then it comes out along [+−near]/);
+  assert.match(sentence, /^Take off .* first; then it comes out (along [+−][XYZ]|near [+−][XYZ]|between )/);
   const { components } = await viewer.page.evaluate(() => window.dismantle!.app.session.store.model!);
   assert.ok(sentence.includes(components[chain.before[0][0]].name.replace(/#\d+$/, "")), sentence);
+});
+
+test("with recorded moves and a plan, the export is of the one that is chosen", async () => {
+  await viewer.takeOut(kSlide);
+  await viewer.page.focus("#view");
+  await viewer.press("l");
+  await viewer.page.click("#plan-find");
+  await waitForSearch("plan");
+  await viewer.idle();
+  const steps = (await viewer.state()).guide!.moves.length;
+  assert.ok(steps > 10);
+  await viewer.page.click("#export");
+  const movesOf = async (source: string) => {
+    await viewer.page.selectOption("#export-source", source);
+    return JSON.parse((await viewer.saved("#export-path-json")).bytes.toString()).moves.length;
+  };
+  assert.equal(await viewer.page.locator("#export-source option").nth(1).innerText(), "Planned sequence");
+  assert.equal(await movesOf("recording"), 1);
+  assert.equal(await movesOf("guide"), steps);
+  await viewer.page.keyboard.press("Escape");
+  await viewer.click("#guide-close");
+  await viewer.page.click("#export");
+  assert.equal(await viewer.page.isVisible("#export-source"), false);
+  await viewer.page.keyboard.press("Escape");
+  await viewer.page.focus("#view");
+  await viewer.press("l", "Control+z");
+  await viewer.idle();
 });
 
 test("the steps found until a plan is cancelled are kept, and it says how many and how long", async () => {
