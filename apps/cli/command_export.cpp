@@ -55,7 +55,7 @@ struct ExportInput {
 Result<ExportFormat> check(const ExportCommand& command) {
   const std::optional<ExportFormat> format = command.format ? command.format : export_format_of(command.output);
   if (!format)
-    return Error{ErrorKind::Usage, command.output + " cannot be written (its ending names no format); use " +
+    return Error{ErrorKind::Usage, command.output + " cannot be written (unknown file extension); use " +
                                        export_endings() + ", or give --format"};
   if (command.path_file.empty() && needs_path(*format))
     return Error{ErrorKind::Usage,

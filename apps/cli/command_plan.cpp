@@ -103,7 +103,10 @@ void print_text(const PlanCommand& command, const Assembly& a, const Plan& plan)
   }
   fmt::print("{}{} steps in {:.2f} s:", plan.steps.empty() ? "" : "\n", plan.steps.size(), plan.seconds);
   for (const auto& [tier, count] : tier_counts(plan)) fmt::print(" {} {};", count, name_of(tier));
-  fmt::print(" {}\n", plan.complete() ? "all targets can be removed" : "not all targets can be removed");
+  std::size_t left = 0;
+  for (const Explanation& e : plan.staying) left += e.group.size();
+  fmt::print(" {}{}\n", plan.complete() ? "complete" : "incomplete",
+             left == 0 ? "" : fmt::format(": {} component{}", left, left == 1 ? " remains" : "s remain"));
   for (const Explanation& e : plan.staying) fmt::print("  {}\n", explanation_text(a, e));
   if (plan.out_of_time) fmt::print("The search ended early; the path contains the steps found so far.\n");
   if (plan.effort_spent)

@@ -137,7 +137,7 @@ Result<Done> run(const ViewOptions& o) {
 
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
-  if (!o.common.quiet) std::fprintf(stderr, "The viewer is running; Ctrl+C ends it.\n");
+  if (!o.common.quiet) std::fprintf(stderr, "Viewer running. Press Ctrl+C to stop.\n");
   if (!o.no_browser) open_browser(server.url());
   int signal = 0;
   sigwait(&signals, &signal);

@@ -26,7 +26,7 @@ class SessionProgress {
   bool keep_going() {
     if (finished_) return true;
     const std::lock_guard lock(mutex_);
-    cancelled_ = cancelled_ || !report_progress(progress_, "preparing the session", -1);
+    cancelled_ = cancelled_ || !report_progress(progress_, "preparing collision data", -1);
     return !cancelled_;
   }
   /// @return false if it was cancelled
@@ -83,7 +83,7 @@ Result<Model> load_model(const std::filesystem::path& file, const ModelOptions& 
       find_clashes(*assembly, {classify.tolerance, classify.clearance, true, options.executor, progress});
   if (!clashes) return clashes.error();
   model.clashes = std::move(*clashes);
-  if (!report_progress(progress, "preparing the view", -1)) return Error{ErrorKind::Failed, "cancelled"};
+  if (!report_progress(progress, "preparing the picture", -1)) return Error{ErrorKind::Failed, "cancelled"};
   Result<std::string> glb = glb_from_assembly(*assembly);
   if (!glb) return glb.error();
   model.glb = std::make_shared<const std::string>(std::move(*glb));

@@ -45,7 +45,7 @@ TEST(Explanation, TellsWhatLocksEachOther) {
   const Assembly chain = scenes::assembly(scenes::chain_links());
   const Explanation e = why(chain, "link");
   EXPECT_EQ(e.locked.size(), 2u);
-  EXPECT_NE(explanation_text(chain, e).find("locked with {next link}"), std::string::npos);
+  EXPECT_NE(explanation_text(chain, e).find("interlocked with next link"), std::string::npos);
 }
 
 using LeastBlockedWayTest = scenes::RelationsTest;
@@ -108,7 +108,7 @@ TEST(Explanation, NamesAFewAndCountsTheRest) {
   EXPECT_EQ(
       explanation_text(assembly, e),
       "c0 is blocked by c1 (contact at (0, 0, 0)), c2 (contact at (0, 0, 0)), c3 (contact at (0, 0, 0)) and 5 more "
-      "along +Z, locked with {c1, c2, c3, c4 and 4 more}");
+      "along +Z, interlocked with c1, c2, c3, c4 and 4 more");
 }
 
 TEST(Explanation, SaysThatNothingBlocks) {

@@ -162,6 +162,7 @@ async function firstMinutes(viewer: Viewer): Promise<void> {
 
 /// Plans the disassembly of everything and prints its work instructions, by clicks alone.
 async function firstInstructions(viewer: Viewer): Promise<void> {
+  await viewer.page.keyboard.press("Escape"); // closes the export dialog
   await viewer.page.click("#plan");
   await viewer.page.click("#plan-find");
   await viewer.page.waitForFunction(

@@ -155,7 +155,7 @@ std::string explanation_text(const Assembly& assembly, const Explanation& e) {
   text += " along " + direction_text(e.direction);
   std::vector<ComponentId> locked = e.locked;
   std::erase_if(locked, [&](ComponentId c) { return std::find(e.group.begin(), e.group.end(), c) != e.group.end(); });
-  if (!locked.empty()) text += ", locked with {" + names_text(assembly, locked) + "}";
+  if (!locked.empty()) text += ", interlocked with " + names_text(assembly, locked);
   if (e.overlap) text += "; " + overlap_text(assembly, *e.overlap);
   return text;
 }

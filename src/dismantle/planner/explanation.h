@@ -35,8 +35,8 @@ std::string names_text(const Assembly& assembly, Span<const ComponentId> compone
 /// "comes out along +X if 0.012 mm more overlap with bore (at (12, 0, 40)) was allowed".
 std::string overlap_text(const Assembly& assembly, const LeastOverlap& overlap);
 
-/// One sentence, with a few names at most: "jaw is blocked by screw along +Z (contact at (1, 2, 3)), locked with
-/// {plate}"; or that it can be removed.
+/// One sentence, with a few names at most: "jaw is blocked by screw along +Z (contact at (1, 2, 3)), interlocked with
+/// plate"; or that it can be removed.
 std::string explanation_text(const Assembly& assembly, const Explanation& explanation);
 
 }  // namespace dismantle
