@@ -310,11 +310,15 @@ class Writer {
       const std::string name = sentence_start(counted(part.own, part.line));
       std::vector<std::string> others, not_checked;
       for (const PartOverlaps::With& o : part.with) {
-        const std::string other = counted(o.components, o.line), depth = number_text(o.depth);
-        if (o.state == PairState::Free)
+        std::string other = counted(o.components, o.line);
+        if (o.state == PairState::Free) {
           not_checked.push_back(other);
-        else
-          others.push_back(other + (number_text(o.least) == depth ? " by " : " by up to ") + depth + " mm");
+          continue;
+        }
+        const std::string depth = number_text(o.depth);
+        other += number_text(o.least) == depth ? " by " : " by up to ";
+        other += depth + " mm";
+        others.push_back(other);
       }
       if (!others.empty())
         instruction.notes.push_back({Kind::Overlap, name + (part.own.size() > 1 ? " overlap " : " overlaps ") +
