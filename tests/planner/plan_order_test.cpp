@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/order/plan_order.h"
 
+#include "dismantle/planner/step_preference.h"
 #include "tests/planner/planned.h"
 #include "tests/support/joint_scenes.h"
 

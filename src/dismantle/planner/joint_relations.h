@@ -43,9 +43,6 @@ class JointRelations {
   /// any more.
   std::optional<Unscrewing> unscrewing(const PlanStep& step, const ComponentSet& present) const;
 
-  /// The remaining parts of the stacks that a step has begun to take off, in the order of removal.
-  /// @param present without the components of the step
-  std::vector<ComponentId> rest_of_stack(const PlanStep& step, const ComponentSet& present) const;
   /// Components that a person would remove next, after a step, the first one first: the rest of the stack that it
   /// began; equal fasteners that hold the same part; what is held no more.
   /// @param kinds first_of_shape() @param present without the components of the step
@@ -56,6 +53,9 @@ class JointRelations {
 
  private:
   using Indices = std::vector<std::size_t>;
+  /// The remaining parts of the stacks that a step has begun to take off, in the order of removal.
+  /// @param present without the components of the step
+  std::vector<ComponentId> rest_of_stack(const PlanStep& step, const ComponentSet& present) const;
   /// The fastener of a joint that has to go before what it holds; invalid if it is gone.
   ComponentId holder(const Joint& joint, const ComponentSet& present) const;
   bool is_closed(const Joint& joint, const ComponentSet& present) const;

@@ -18,6 +18,7 @@
 #include "dismantle/planner/search/motion_validator.h"
 #include "dismantle/planner/search/removal_search.h"
 #include "dismantle/planner/search/single_removals.h"
+#include "dismantle/planner/step_preference.h"
 
 #include <algorithm>
 #include <mutex>
@@ -33,7 +34,7 @@ constexpr std::size_t kDepthTests = 50000;
 /// Distance at which removed components stand, in diagonals of the assembly.
 constexpr double kFarAway = 100;
 
-/// What the options name, and lock nuts with their inserts.
+/// The groups that the options name, and one for each lock nut with its insert.
 RigidGroups groups_of(const Assembly& assembly, const PlanOptions& options, const std::vector<Joint>& joints) {
   RigidGroups groups(assembly.components.size());
   for (const std::vector<ComponentId>& together : options.together) groups.unite(together);

@@ -12,7 +12,7 @@
 
 namespace dismantle {
 
-/// What makes a step a good one after those before it.
+/// A criterion for choosing the next step.
 enum class StepPreference {
   Direction,  ///< It has the direction of the previous step.
   Upright,    ///< It does not move downwards, so that nothing has to be turned over. z is up.
@@ -39,7 +39,7 @@ struct PlanOptions {
   std::size_t slide_effort = 400'000;
   /// Total effort of all random searches, which come after them.
   std::size_t sample_effort = 200'000;
-  /// What makes an order of steps good, the most important first; empty: the usual weights (OrderWeights). Direction
+  /// Criteria for the order of the steps, the most important first; empty: the usual weights (OrderWeights). Direction
   /// and Upright also choose among the free directions of a component.
   std::vector<StepPreference> preferences{};
   /// The weight of each preference in the order of all steps (OrderWeights); empty: each counts ten times as much as

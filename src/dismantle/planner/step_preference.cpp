@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/step_preference.h"
 
+#include "dismantle/core/contract.h"
 #include "dismantle/files/text_scan.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace dismantle {
+
+namespace {
+
+/// A criterion counts as many times as much as the next one.
+constexpr double kMoreImportant = 10;
+
+}  // namespace
 
 const std::map<std::string, StepPreference>& step_preferences() {
   static const std::map<std::string, StepPreference> kNames{
@@ -41,6 +49,37 @@ std::optional<ChosenPreferences> read_preferences(const std::vector<std::string>
     if (has_weights) chosen.weights.push_back(weight);
   }
   return chosen;
+}
+
+OrderWeights order_weights(const std::vector<StepPreference>& preferences, const std::vector<double>& weights) {
+  DISMANTLE_EXPECT(weights.empty() || weights.size() == preferences.size());
+  if (preferences.empty()) return {};
+  OrderWeights order{0, 0, 0, 0, 0, 0};
+  double by_place = 1;
+  for (std::size_t i = preferences.size(); i-- > 0; by_place *= kMoreImportant) {
+    const double weight = weights.empty() ? by_place : weights[i];
+    switch (preferences[i]) {
+      case StepPreference::Direction:
+        order.direction = weight;
+        break;
+      case StepPreference::Upright:
+        order.upright = weight;
+        break;
+      case StepPreference::Groups:
+        order.groups = weight;
+        break;
+      case StepPreference::Support:
+        order.support = weight;
+        break;
+      case StepPreference::Tools:
+        order.tools = weight;
+        break;
+      case StepPreference::Loose:
+        order.loose = weight;
+        break;
+    }
+  }
+  return order;
 }
 
 }  // namespace dismantle

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dismantle/planner/order/step_order.h"
 #include "dismantle/planner/plan_disassembly.h"
 
 #include <map>
@@ -23,5 +24,9 @@ struct ChosenPreferences {
 /// the others count 1, and those that count most come first. Nothing if a name is unknown or repeated, or a weight is
 /// no such number.
 std::optional<ChosenPreferences> read_preferences(const std::vector<std::string>& texts);
+
+/// The weights for criteria, all others count nothing; without criteria, the usual weights.
+/// @param weights of each; empty: each counts ten times as much as the next
+OrderWeights order_weights(const std::vector<StepPreference>& preferences, const std::vector<double>& weights);
 
 }  // namespace dismantle

@@ -24,7 +24,7 @@ constexpr std::size_t kLeastOfBearing = 3;
 /// A board is no thicker than this share of its width, and carries at least so many components.
 constexpr double kBoardThickness = 0.1;
 constexpr std::size_t kLeastOnBoard = 10;
-/// What is soldered on in several solids, a body with its leads, has at most this share of the board's volume.
+/// A soldered part of several solids, such as a chip with its leads, takes up at most this share of the board's volume.
 constexpr double kMaxVolumeOnBoard = 0.03;
 /// An O-ring's section is at most this share of the outer radius.
 constexpr double kMaxSection = 0.3;

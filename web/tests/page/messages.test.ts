@@ -18,7 +18,7 @@ const cutOff = () =>
       .map((shown) => shown.innerText),
   );
 
-test("a plan is for everything unless something else is chosen, whatever is selected", async () => {
+test("a plan covers everything by default, even with a selection", async () => {
   await viewer.select("thumb screw threaded", "bracket screw M4x16", "bracket screw M4x16#2", "stage bracket");
   await viewer.press("l");
   assert.equal(await viewer.page.isChecked("#plan-all"), true);

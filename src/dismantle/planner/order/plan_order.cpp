@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/order/plan_order.h"
 
-#include "dismantle/core/contract.h"
 #include "dismantle/planner/order/step_relations.h"
 #include "dismantle/planner/precedence_graph.h"
 #include "dismantle/planner/search/exposure.h"
@@ -19,8 +18,6 @@ namespace {
 
 /// Directions within this sine are equal.
 constexpr double kSameDirection = 0.02;
-/// A criterion counts as many times as much as the next one.
-constexpr double kMoreImportant = 10;
 
 using Indices = std::vector<std::uint32_t>;
 
@@ -178,37 +175,6 @@ std::size_t torn(const Plan& plan) {
 }
 
 }  // namespace
-
-OrderWeights order_weights(const std::vector<StepPreference>& preferences, const std::vector<double>& weights) {
-  DISMANTLE_EXPECT(weights.empty() || weights.size() == preferences.size());
-  if (preferences.empty()) return {};
-  OrderWeights order{0, 0, 0, 0, 0, 0};
-  double by_place = 1;
-  for (std::size_t i = preferences.size(); i-- > 0; by_place *= kMoreImportant) {
-    const double weight = weights.empty() ? by_place : weights[i];
-    switch (preferences[i]) {
-      case StepPreference::Direction:
-        order.direction = weight;
-        break;
-      case StepPreference::Upright:
-        order.upright = weight;
-        break;
-      case StepPreference::Groups:
-        order.groups = weight;
-        break;
-      case StepPreference::Support:
-        order.support = weight;
-        break;
-      case StepPreference::Tools:
-        order.tools = weight;
-        break;
-      case StepPreference::Loose:
-        order.loose = weight;
-        break;
-    }
-  }
-  return order;
-}
 
 Plan in_good_order(const Plan& plan, const PlanOrderContext& with) {
   if (plan.steps.size() < 2 || !with.keep_going()) return plan;

@@ -15,10 +15,6 @@
 
 namespace dismantle {
 
-/// The weights for criteria, all others count nothing; without criteria, the usual weights.
-/// @param weights of each; empty: each counts ten times as much as the next
-OrderWeights order_weights(const std::vector<StepPreference>& preferences, const std::vector<double>& weights);
-
 /// The inputs and services of in_good_order().
 struct PlanOrderContext {
   const PlannedAssembly& planned;                         ///< The assembly.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dismantle/planner/search/single_removals.h"
 
-#include "dismantle/planner/order/plan_order.h"
+#include "dismantle/planner/step_preference.h"
 #include "dismantle/surface/equal_shapes.h"
 
 #include <algorithm>
