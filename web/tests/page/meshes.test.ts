@@ -4,6 +4,7 @@ import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, test } from "node:test";
+import { box } from "../support/box.ts";
 import { useViewer, viewer } from "../support/scene.ts";
 
 useViewer([], { waits: false });
@@ -12,19 +13,6 @@ const chosen: string[] = [];
 after(() => {
   for (const used of chosen) rmSync(used, { recursive: true });
 });
-
-/// A box with two facets a side, as an OBJ file.
-function box(lower: number[], upper: number[]): string {
-  const corner = (k: number) => [0, 1, 2].map((axis) => (k & (1 << axis) ? upper[axis] : lower[axis])).join(" ");
-  return `${[0, 1, 2, 3, 4, 5, 6, 7].map((k) => `v ${corner(k)}`).join("\n")}
-f 1 3 4 2
-f 5 6 8 7
-f 1 2 6 5
-f 3 7 8 4
-f 1 5 7 3
-f 2 4 8 6
-`;
-}
 
 /// Chooses a folder with these files.
 async function chooseFolder(name: string, files: Record<string, string>): Promise<void> {

@@ -4,6 +4,7 @@ import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join } from "node:path";
 import { after, test } from "node:test";
+import { box } from "../support/box.ts";
 import { sourceFolder } from "../support/environment.ts";
 import { useViewer, viewer } from "../support/scene.ts";
 import { isPresent } from "../support/step.ts";
@@ -18,16 +19,7 @@ after(() => {
 
 const modelName = () => viewer.page.evaluate(() => window.dismantle!.app.session.store.model?.name ?? null);
 
-/// A cube with one facet a side, as an OBJ file.
-const kCube = `o cube
-${[0, 1, 2, 3, 4, 5, 6, 7].map((k) => `v ${k & 1 ? 10 : 0} ${k & 2 ? 10 : 0} ${k & 4 ? 10 : 0}`).join("\n")}
-f 1 3 4 2
-f 5 6 8 7
-f 1 2 6 5
-f 3 7 8 4
-f 1 5 7 3
-f 2 4 8 6
-`;
+const kCube = `o cube\n${box([0, 0, 0], [10, 10, 10])}`;
 
 test("without an assembly the start page offers the samples", async () => {
   await viewer.page.locator("#samples .card").first().waitFor();
